@@ -8,7 +8,7 @@ from urllib.parse import unquote, urlsplit
 
 
 class Page(HTMLParser):
-    """What a page links to, and what can be linked to in it."""
+    """Links of a page, and its anchors."""
 
     def __init__(self, path: Path) -> None:
         super().__init__()
@@ -30,7 +30,7 @@ def page(path: Path) -> Page:
 
 
 def fault(source: Path, link: str) -> str | None:
-    """What is wrong with a link, if anything."""
+    """Returns the fault of a link, if any."""
     to = urlsplit(link)
     if to.scheme or to.netloc:
         return None

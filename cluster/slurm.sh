@@ -7,26 +7,26 @@
 #   cluster/slurm.sh 64 data/train pushplan-learn generate --preset tools --episodes 60000 --seed 1
 #   cluster/slurm.sh 16 runs/crowds pushplan-lab evaluate --on sparse dense
 #
-# Every element measures its shard into a folder of its own below OUT.shards, and when all are done
-# the last job merges them into OUT. Run the same command again, from the same folder, after
-# something went wrong and nothing runs any more: it submits only the shards that are missing. A
-# requeued element goes on where it was, as every finished task is on the disk.
+# Every array element measures its shard into a separate folder below OUT.shards. After all elements
+# have finished, the last job merges the shards into OUT. If an element failed, wait until no job runs
+# any more, and rerun the same command from the same folder: it submits only the missing shards. A
+# requeued element resumes its shard, because every finished task is saved.
 #
-# What the cluster wants to know is said as for any sbatch, in the environment or here:
+# Options of the cluster are set as for any sbatch, in the environment or here:
 #   SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT, SBATCH_MEM_PER_CPU, ...
 #   CPUS        processors of an element, by default 4; programs use as many threads
 #
-# Exit codes: `pushplan solve`, `run` and `verify` tell answers by theirs. 4 (no plan), 5 (fails in
-# simulation) and 7 (works too seldom) are answers, but to Slurm they are failures, for which
-# `--dependency=afterok` waits in vain. An array of such commands says which are fine:
+# Exit codes: `pushplan solve`, `run` and `verify` report results by their exit codes. Slurm treats 4
+# (no plan), 5 (fails in simulation), 7 (fragile) and 8 (partial) as failures, so
+# `--dependency=afterok` would wait forever. An array of such commands must accept them:
 #
 #   pushplan solve "$task" --out plans || case $? in 4 | 5 | 7 | 8) ;; *) exit 1 ;; esac
 #
-# The commands of this script exit with 0 if and only if the shard is whole. 130 means that a signal
-# ended it in between; what was finished is kept.
+# The commands of this script exit with 0 if and only if the shard is complete. 130 means that a signal
+# interrupted the command; finished tasks are kept.
 set -euo pipefail
 
-# What a job does is its first word, and not in the environment, which some clusters do not hand on.
+# The first argument selects the step, because some clusters do not pass the environment on to jobs.
 step=submit
 case ${1:-} in --shard | --merge) step=${1#--} && shift ;; esac
 
@@ -37,8 +37,8 @@ fi
 shards=$1 out=$2 program=$3
 shift 3
 
-# Where the command takes the folder: data are named, everything else is put `--out`; and what the
-# program calls what is done with its runs. (Lists that may be empty are no error to an old bash so.)
+# The option that names the folder (none for data), and the subcommand that contains `merge` and
+# `status`. (Empty lists are expanded in a way that is no error in an old bash.)
 place=(--out) kept=()
 case $(basename "$program") in
 pushplan) kept=(bench) ;;
@@ -53,7 +53,7 @@ esac
 case $step in
 shard)
   number=$SLURM_ARRAY_TASK_ID
-  # Instead of this shell, so that signals reach it.
+  # Replaces this shell, so that signals reach the program.
   exec "$program" "$@" ${place[@]+"${place[@]}"} "$out.shards/$number" --shard "$number/$shards"
   ;;
 merge)
@@ -62,12 +62,12 @@ merge)
 esac
 
 if [ -e "$out/manifest.json" ]; then
-  echo "$out holds a run already" >&2
+  echo "$out already holds a run" >&2
   exit 2
 fi
 mkdir -p "$out.shards/log"
 missing=1-$shards
-# `log` is no shard; what was begun is.
+# `log` is not a shard; every started shard has a folder.
 if compgen -G "$out.shards/[0-9]*" >/dev/null; then
   missing=$("$program" ${kept[@]+"${kept[@]}"} status "$out".shards/[0-9]*)
 fi

@@ -78,7 +78,7 @@ impl Task {
     /// Returns a shipped task by name; no files are needed. [`Task::examples`] lists the names.
     ///
     /// # Errors
-    /// No shipped task has this name.
+    /// Returns an error if no shipped task has this name.
     pub fn example(name: &str) -> Result<Self, Faults> {
         read(name, None)
     }
@@ -92,7 +92,8 @@ impl Task {
 /// Returns a shipped task and checks its tool names against `library`.
 ///
 /// # Errors
-/// No shipped task has this name, or `library` lacks a tool that the task names.
+/// Returns an error if no shipped task has this name, or `library` lacks a tool that the task
+/// names.
 pub fn load_example(name: &str, library: &ToolLibrary) -> Result<Task, Faults> {
     read(name, Some(library))
 }
@@ -100,7 +101,7 @@ pub fn load_example(name: &str, library: &ToolLibrary) -> Result<Task, Faults> {
 /// Returns the text of a shipped task.
 ///
 /// # Errors
-/// No shipped task has this name.
+/// Returns an error if no shipped task has this name.
 pub fn example_text(name: &str) -> Result<&'static str, Faults> {
     match SHIPPED.iter().find(|(file, _)| name_of(file) == name) {
         Some((_, text)) => Ok(text),

@@ -17,7 +17,7 @@ pub(super) fn files_in(folder: &Path, endings: &[&str]) -> Result<Vec<PathBuf>, 
 /// subfolders, grouped by folder and sorted. Symbolic links to folders are not followed.
 ///
 /// # Errors
-/// A folder cannot be read, or no such file is found.
+/// Returns an error if a folder cannot be read, or no such file is found.
 pub fn recordings_in(folder: &Path) -> Result<Vec<(PathBuf, Vec<PathBuf>)>, Fault> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];

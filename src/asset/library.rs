@@ -67,7 +67,7 @@ impl ToolLibrary {
     /// Adds a tool.
     ///
     /// # Errors
-    /// The library already has a tool of this name.
+    /// Returns an error if the library already has a tool of this name.
     pub fn with(mut self, tool: impl Into<Arc<Tool>>) -> Result<Self, Faults> {
         let tool = tool.into();
         let name = tool.name.clone();
@@ -81,7 +81,8 @@ impl ToolLibrary {
     /// Adds the tools of every `.yaml` or `.yml` file of the folder `path`.
     ///
     /// # Errors
-    /// The errors of [`ToolLibrary::load`]; also a tool whose name is already in the library.
+    /// Returns the errors of [`ToolLibrary::load`], and an error for a tool whose name is already
+    /// in the library.
     pub fn with_folder(self, path: impl AsRef<Path>) -> Result<Self, Faults> {
         let path = path.as_ref();
         let files = files_in(path, &["yaml", "yml"])?;

@@ -46,8 +46,8 @@ impl TableFit {
     /// Reads a file written by [`TableFit::write`].
     ///
     /// # Errors
-    /// The file cannot be read, has another kind or version, is damaged, or holds numbers that are
-    /// impossible in a fit.
+    /// Returns an error if the file cannot be read, has another kind or version, is damaged, or
+    /// holds numbers that are impossible in a fit.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
         let (file, text) = read_text(path.as_ref())?;
         Self::parse(&text, &file).map_err(Faults::from)
@@ -56,7 +56,7 @@ impl TableFit {
     /// Parses the text of a file; `file` is its name in faults.
     ///
     /// # Errors
-    /// The errors of [`TableFit::load`].
+    /// Returns the errors of [`TableFit::load`].
     pub fn parse(text: &str, file: &str) -> Result<Self, Fault> {
         let again = "create it again with `pushplan fit RECORDINGS --save-fit FILE`";
         let broken = |error: serde_json::Error| {
@@ -100,7 +100,7 @@ impl TableFit {
     /// Writes the file; a partial file is never left behind.
     ///
     /// # Errors
-    /// The path cannot be written.
+    /// Returns an error if the path cannot be written.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Faults> {
         write_atomic(path, self.to_json().as_bytes())
     }

@@ -86,7 +86,7 @@ pub fn apart_by_name(stem: &str) -> String {
 /// Reads a file; returns its name for messages and its text.
 ///
 /// # Errors
-/// The file cannot be read, is not UTF-8 or is far too long.
+/// Returns an error if the file cannot be read, is not UTF-8 or is far too long.
 pub fn read_text(path: &Path) -> Result<(String, String), Fault> {
     let fault = |error: std::io::Error| Fault::io(path, "read the file", &error);
     let name = path.display().to_string();

@@ -99,7 +99,7 @@ impl Tool {
     /// for bit if the angles came from a file or are round in degrees.
     ///
     /// # Errors
-    /// The tool holds a value that a file cannot represent.
+    /// Returns an error if the tool holds a value that a file cannot represent.
     pub fn to_yaml(&self) -> Result<String, Faults> {
         serde_yaml::to_string(&self.to_json()).map_err(|error| {
             let message = format!("the tool cannot be written as YAML: {error}");

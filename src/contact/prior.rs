@@ -21,7 +21,7 @@ use super::{
     warm_start::WarmStart,
 };
 
-/// A target below every displacement of a frame, metres.
+/// Target of a constraint that no displacement in a frame can violate, metres.
 const OUT_OF_REACH: f64 = -10.0;
 
 /// The analytic model and its systems of equations.

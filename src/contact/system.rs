@@ -33,16 +33,16 @@ use super::{
 
 /// Tolerance in place of [`SETTLED`] for displacements of more than [`FEW`] groups, which saves a
 /// seventh of the time. Over 4800 sparse and dense trajectories the mean errors of scenes with
-/// fixed joints that touch grow by 0.03 to 0.09 mm, the others by no more than chance. With few
-/// objects they would be 3 % larger. Errors grow from velocities: with 5e-5 also for velocities
-/// they would be a quarter larger.
+/// fixed joints that touch grow by 0.03 to 0.09 mm, and all other errors by no more than chance.
+/// For few objects, this tolerance would make errors 3 % larger; for velocities, a quarter larger.
 const SETTLED_IN_A_CROWD: f64 = 5e-5;
 const FEW: usize = 3;
 
 /// Tolerance in place of [`SETTLED`] for the velocities of more than [`FEW`] groups with joints,
-/// which saves an eighth of the time. Over 800 trajectories of nine objects with mixed joints no
-/// error is larger than with 1e-5 by more than chance. Mean errors of six in dense scenes are 7 and
-/// 2 % larger, and 3 and 1 % larger than with 1e-7. Without joints they would be a tenth larger.
+/// which saves an eighth of the time. Over 800 trajectories of nine objects with mixed joints, no
+/// error exceeds the error with 1e-5 by more than chance. In dense scenes of six objects, the mean
+/// errors are 7 and 2 % larger than with 1e-5, and 3 and 1 % larger than with 1e-7. Without joints
+/// they would be a tenth larger.
 const SETTLED_IN_JOINTS: f64 = 5e-5;
 
 /// Unknowns and constraints of one frame.

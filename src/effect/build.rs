@@ -21,7 +21,7 @@ impl EffectModels {
     /// Returns the shipped weights with their card.
     ///
     /// # Errors
-    /// [`ModelError::Shipped`] if the library was built around a damaged weights file.
+    /// Returns [`ModelError::Shipped`] if the library was built with a damaged weights file.
     pub fn weights() -> Result<PredictorWeights, ModelError> {
         PredictorWeights::from_bytes(pushplan_models::BRDPN).map_err(ModelError::Shipped)
     }
@@ -29,7 +29,7 @@ impl EffectModels {
     /// Returns the weights of the first part of `spec` that is a network, if there is one.
     ///
     /// # Errors
-    /// [`ModelError`] if they cannot be used.
+    /// Returns [`ModelError`] if they cannot be used.
     pub fn weights_of(spec: &ModelSpec) -> Result<Option<PredictorWeights>, ModelError> {
         let file = spec.parts().find_map(|part| match &part.kind {
             ModelKind::Network { weights, .. } => Some(weights.as_deref()),
@@ -49,7 +49,7 @@ impl EffectModels {
     /// ```
     ///
     /// # Errors
-    /// [`ModelError`] if it needs weights that cannot be used.
+    /// Returns [`ModelError`] if it needs weights that cannot be used.
     pub fn build(spec: &ModelSpec) -> Result<Fallback, ModelError> {
         Self::fitted(spec, None)
     }
@@ -58,8 +58,8 @@ impl EffectModels {
     /// only the statements of a scene, see [`TableFit::state`].
     ///
     /// # Errors
-    /// [`ModelError`] if it needs weights that cannot be used, or if the weights of a network
-    /// differ from the fit's.
+    /// Returns [`ModelError`] if it needs weights that cannot be used, or if the weights of a
+    /// network differ from the fit's.
     pub fn fitted(spec: &ModelSpec, fit: Option<&TableFit>) -> Result<Fallback, ModelError> {
         let first = Fallback::new(levering(spec.first(), fit)?);
         spec.others().iter().try_fold(first, |routed, other| Ok(routed.or(part(other, fit)?)))

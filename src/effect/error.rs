@@ -26,8 +26,8 @@ pub enum ModelError {
     Custom(&'static str),
     /// A table fit that was learned with another network.
     #[error(
-        "the fit was learnt with other weights ({weights}) than the model has; fit again with this \
-         model"
+        "the fit was learned with other weights ({weights}) than the model has; fit again with \
+         this model"
     )]
     Fit {
         /// Checksum of the weights with which the fit was learned.

@@ -40,8 +40,8 @@ impl fmt::Display for OutOfRange {
     }
 }
 
-/// Difference between prediction and 2-D simulation below which no warning is added, metres:
-/// engines differ by more.
+/// Difference between prediction and 2-D simulation below which no warning is added, metres. The
+/// 2-D and the 3-D engine differ by more.
 const SAME: f64 = 1e-3;
 
 /// Models in order of preference: a job is given to the first that accepts it, otherwise to the
@@ -175,7 +175,8 @@ impl EffectModel for Fallback {
 }
 
 impl Fallback {
-    /// Returns a refusal: the start alone, with the warnings against a prediction.
+    /// Returns a refusal: a trajectory with only the start, and the warnings because of which the
+    /// job is not predicted.
     fn refused(&self, job: &Job, route: &Route, doubtful: Option<Trajectory>) -> Trajectory {
         let tool = job.motion.slide().strokes.first().map(|stroke| stroke.from).unwrap_or_default();
         let by = self.models[route.model].spec().clone();

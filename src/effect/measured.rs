@@ -81,11 +81,11 @@ pub(super) fn measured(kind: &ModelKind, objects: impl FnOnce() -> usize) -> Opt
 /// Ranges in which the analytic model was measured: the scenes and pushes of `pushplan-lab
 /// evaluate`, with the shipped tools and in crowds, and those on which the network is trained.
 ///
-/// Outside (`cargo test --release -p pushplan-lab -- --ignored the_prior_hides_no_defect_either`,
-/// 22 pushes of seed 7 in each cell) it is wrong in four cases: at 2 m/s, if the tool rotates by 90
-/// degrees in a push, if the tool is set down into an object, and nearly without friction. A single
-/// object may have any mass and size. Inside it is wrong in front of a wall after 5 cm, and warns
-/// of 15 pushes in 22.
+/// Outside of these ranges (`cargo test --release -p pushplan-lab -- --ignored
+/// the_prior_hides_no_defect_either`, 22 pushes of seed 7 in each cell) the model is wrong in four
+/// cases: at 2 m/s, if the tool rotates by 90 degrees in a push, if the tool is set down into an
+/// object, and nearly without friction. A single object may have any mass and size. Within the
+/// ranges it is wrong if a wall stops the object after 5 cm, and warns on 15 of 22 such pushes.
 pub const PRIOR_RANGES: Ranges = Ranges {
     objects: Span::new(1.0, 12.0),
     mass: Span::new(0.05, 3.0),

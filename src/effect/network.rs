@@ -82,7 +82,7 @@ impl Network {
     /// Adds `head` to the last layer; measured errors are without it.
     ///
     /// # Panics
-    /// If the head has another width, see [`Self::effect_width`].
+    /// Panics if the head has another width, see [`Self::effect_width`].
     pub fn adapted(mut self, head: &Head) -> Self {
         self.forward = self.forward.with_head(head);
         self
@@ -92,7 +92,7 @@ impl Network {
     /// only the share [`OTHER_OBJECTS`] of the fit applies.
     ///
     /// # Errors
-    /// [`ModelError::Fit`] if the fit was learned with other weights.
+    /// Returns [`ModelError::Fit`] if the fit was learned with other weights.
     pub fn fitted(mut self, fit: &TableFit) -> Result<Self, ModelError> {
         let foreign = || ModelError::Fit { weights: fit.weights.clone() };
         let own = self.weights.checksum().map_err(ModelError::Shipped)?;

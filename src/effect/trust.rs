@@ -47,6 +47,6 @@ pub(super) fn outside(ranges: &Ranges, scene: &Scene, job: &Job) -> Vec<Warning>
     if found.is_empty() {
         return found;
     }
-    // Objects that the motion cannot reach are never processed.
+    // Objects that the motion cannot reach do not affect the prediction.
     ranges.warnings_among(scene, job, &reachable(scene, job))
 }

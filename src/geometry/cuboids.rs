@@ -1,4 +1,4 @@
-//! Contact points of two cuboids in space that touch or are close.
+//! Contact points of two cuboids with 3-D poses that touch or are close.
 
 use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector as ParryVector};
 use parry3d_f64::query::ContactManifold;

@@ -3,7 +3,8 @@
 use super::{ConvexPolygon, MAX_CORNERS, Vector};
 
 /// Sine of the angle to a face beyond which a normal counts as a corner's (3 degrees). Nearer
-/// normals count as the face's, so that rounding cannot decide it where faces end at one place.
+/// normals count as the face's, so that rounding has no effect where the faces of two shapes end at
+/// one place.
 const FLUSH: f64 = 0.05;
 
 /// The corners of a rectangle of unit half extents.

@@ -1,8 +1,8 @@
 //! Planar geometry: poses, footprints, closest points, clearances and swept areas.
 //!
-//! Everything except poses and solids in space lies in the plane of the table, in metres and
-//! radians. This module is independent of tools, tasks and physics; the vertical extent of a body
-//! is only a height.
+//! Everything except 3-D poses and solids lies in the plane of the table, in metres and radians.
+//! This module is independent of tools, tasks and physics; the vertical extent of a body is only a
+//! height.
 
 mod cast;
 mod clearance;

@@ -76,7 +76,7 @@ impl ConvexPolygon {
     /// centroid, the centre of mass of evenly spread weight.
     ///
     /// # Errors
-    /// [`PolygonError`] if they do not form a convex polygon.
+    /// Returns [`PolygonError`] if they do not form a convex polygon.
     pub fn new(corners: &[Vector]) -> Result<Self, PolygonError> {
         Self::balanced(corners, centroid(corners))
     }
@@ -84,7 +84,7 @@ impl ConvexPolygon {
     /// Creates the polygon with these corners about a centre of mass given in their frame, metres.
     ///
     /// # Errors
-    /// [`PolygonError`] if they do not form a convex polygon around it.
+    /// Returns [`PolygonError`] if they do not form a convex polygon around it.
     pub fn balanced(corners: &[Vector], centre_of_mass: Vector) -> Result<Self, PolygonError> {
         let count = corners.len();
         if !(3..=MAX_CORNERS).contains(&count) {

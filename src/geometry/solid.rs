@@ -1,4 +1,4 @@
-//! Convex solids in space, and the penetration depth of two of them.
+//! Convex 3-D solids, and the penetration depth of two of them.
 
 use super::{Pose3, Vector, Vector3};
 

@@ -1,4 +1,4 @@
-//! Poses in space, for objects levered off the table.
+//! 3-D poses, for objects levered off the table.
 
 use std::ops::Mul;
 
@@ -7,16 +7,16 @@ use serde::{Deserialize, Serialize};
 
 use super::Pose;
 
-/// A vector or position in space, metres.
+/// A 3-D vector or position, metres.
 pub type Vector3 = nalgebra::Vector3<f64>;
 
-/// A linear map of vectors in space.
+/// A linear map of 3-D vectors.
 pub type Matrix3 = nalgebra::Matrix3<f64>;
 
-/// A rotation in space.
+/// A 3-D rotation.
 pub type Turn3 = UnitQuaternion<f64>;
 
-/// A rigid pose in space: rotation by `rotation`, then translation by `position`.
+/// A rigid 3-D pose: rotation by `rotation`, then translation by `position`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pose3 {
     /// Position of the body's centre, metres.

@@ -1,8 +1,9 @@
 //! Fused inference: the predictor on preallocated buffers, with direct calls of `gemm` kernels.
 //!
-//! Computes the same as the graph that training differentiates, which a test checks, without
-//! tensors and, except for single rows, without allocation. The normaliser is folded into the first
-//! layers. Rows are stored [2, M, h], parity first, so every half is one dense matrix.
+//! The results equal the results of the graph that training differentiates, which a test checks. No
+//! tensors are used and, except for single rows, no memory is allocated. The normaliser is folded
+//! into the first layers. Rows are stored [2, M, h], parity first, so every half is one dense
+//! matrix.
 
 use crate::graph::{Batch, Correction, GIVEN, OUTPUT_EVEN, OUTPUT_ODD};
 
@@ -86,7 +87,7 @@ impl Forward {
     /// Converts parameters in the layout of [`super::layout_of`].
     ///
     /// # Panics
-    /// If a parameter is missing.
+    /// Panics if a parameter is missing.
     pub fn of(config: &Config, normaliser: &Normaliser, parameters: &Parameters) -> Self {
         let get = |name: &str| parameters.values[name].clone();
         let layer = |name: &str, even: &Statistics, odd: &Statistics| {
@@ -162,7 +163,7 @@ impl Forward {
     /// Adds `head` to the last layer; a head that changes nothing leaves every bit.
     ///
     /// # Panics
-    /// If the head has another width.
+    /// Panics if the head has another width.
     pub fn with_head(self, head: &Head) -> Self {
         assert_eq!(head.half(), self.half, "a head of another width");
         Self { head: (!head.is_none()).then(|| head.clone()), ..self }

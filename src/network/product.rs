@@ -46,7 +46,7 @@ pub(super) fn dense(
 /// basic operation, public for benchmarks of the machine.
 ///
 /// # Panics
-/// If a length does not fit the sizes.
+/// Panics if a length does not fit the sizes.
 pub fn matrix_product(x: &[f32], matrix: &[f32], m: usize, k: usize, n: usize, out: &mut [f32]) {
     multiply(x, matrix, m, k, n, out, false);
 }

@@ -23,7 +23,7 @@ pub struct ParameterError {
 /// entry, `text` under `key`, because the order of several would differ from run to run.
 ///
 /// # Errors
-/// If a parameter's length does not fit its shape.
+/// Returns an error if a parameter's length does not fit its shape.
 pub fn encode_parameters(
     layout: &[(&str, Vec<usize>)],
     groups: &[(&str, &Parameters)],
@@ -50,7 +50,7 @@ pub fn encode_parameters(
 /// finite.
 ///
 /// # Errors
-/// [`ParameterError`] for the first parameter that is not.
+/// Returns [`ParameterError`] for the first parameter that fails one of these checks.
 pub fn decode_parameters(
     file: &SafeTensors<'_>,
     layout: &[(&str, Vec<usize>)],
@@ -80,7 +80,7 @@ pub fn decode_parameters(
 /// Returns the text under `key` of a file's metadata.
 ///
 /// # Errors
-/// If the bytes are no safetensors file.
+/// Returns an error if the bytes are no safetensors file.
 pub fn file_metadata(bytes: &[u8], key: &str) -> Result<Option<String>, SafeTensorError> {
     let (_, metadata) = SafeTensors::read_metadata(bytes)?;
     Ok(metadata.metadata().as_ref().and_then(|entries| entries.get(key)).cloned())

@@ -37,7 +37,7 @@ pub trait Card: Clone + Serialize + DeserializeOwned {
     /// Checks that sizes and scales are possible for a network; called before [`Card::layout`].
     ///
     /// # Errors
-    /// [`WeightsError`] for the first that is not.
+    /// Returns [`WeightsError`] for the first impossible size or scale.
     fn check(&self) -> Result<(), WeightsError>;
 
     /// Returns the names and shapes of all parameters.
@@ -142,7 +142,7 @@ impl<C: Card> Weights<C> {
     /// Returns the bytes of the file; equal weights give equal bytes.
     ///
     /// # Errors
-    /// If a parameter's length does not fit its shape.
+    /// Returns an error if a parameter's length does not fit its shape.
     pub fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
         let (checksum, card) = (self.checksum()?, self.card.clone());
         let header = serde_json::to_string(&Header { format: C::FORMAT, checksum, card })?;
@@ -153,7 +153,7 @@ impl<C: Card> Weights<C> {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`WeightsError`] if it cannot be read or is not a sound weights file.
+    /// Returns [`WeightsError`] if it cannot be read or is not a sound weights file.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, WeightsError> {
         Self::from_bytes(&std::fs::read(path)?)
     }
@@ -161,8 +161,8 @@ impl<C: Card> Weights<C> {
     /// Reads a file's bytes.
     ///
     /// # Errors
-    /// [`WeightsError`] if they are not a complete, sound and undamaged weights file of this
-    /// network and version.
+    /// Returns [`WeightsError`] if they are not a complete, sound and undamaged weights file of
+    /// this network and version.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, WeightsError> {
         let text = file_metadata(bytes, C::KEY)?.ok_or(WeightsError::Foreign { key: C::KEY })?;
         let FormatOnly { format: found } = serde_json::from_str(&text)?;
@@ -186,7 +186,7 @@ impl<C: Card> Weights<C> {
     /// identifies the weights.
     ///
     /// # Errors
-    /// If the card cannot be written.
+    /// Returns an error if the card cannot be written.
     pub fn checksum(&self) -> Result<String, WeightsError> {
         let card = serde_json::to_string(&self.card)?;
         let sum = self.parameters.values.iter().fold(checksum(card.as_bytes()), |sum, tensor| {
@@ -202,7 +202,7 @@ impl<C: Card> Weights<C> {
 /// Checks that a propagation network can have this size.
 ///
 /// # Errors
-/// [`WeightsError::Size`] if not.
+/// Returns [`WeightsError::Size`] if not.
 pub fn check_config(config: Config) -> Result<(), WeightsError> {
     let Config { width, steps } = config;
     if !(2..=4096).contains(&width) || width % 2 != 0 || !(1..=16).contains(&steps) {
@@ -214,7 +214,7 @@ pub fn check_config(config: Config) -> Result<(), WeightsError> {
 /// Checks that a network without propagation can have this width and inputs of the sizes `sizes`.
 ///
 /// # Errors
-/// [`WeightsError::Size`] if not.
+/// Returns [`WeightsError::Size`] if not.
 pub fn check_widths(width: usize, sizes: &[usize]) -> Result<(), WeightsError> {
     if sizes.iter().chain([&width]).any(|size| !(1..=4096).contains(size)) {
         return Err(WeightsError::Size { width, steps: 1 });
@@ -225,7 +225,7 @@ pub fn check_widths(width: usize, sizes: &[usize]) -> Result<(), WeightsError> {
 /// Checks that the scales of all `tables` of a graph are sound.
 ///
 /// # Errors
-/// The errors of [`check_scales`].
+/// Returns the errors of [`check_scales`].
 pub fn check_normaliser(normaliser: &Normaliser, tables: &Tables) -> Result<(), WeightsError> {
     let Tables { node, given, relation, .. } = tables;
     check_scales("normaliser.node_even", &normaliser.node_even, node[0])?;
@@ -239,8 +239,8 @@ pub fn check_normaliser(normaliser: &Normaliser, tables: &Tables) -> Result<(), 
 /// Checks that scales are sound and have this number of columns.
 ///
 /// # Errors
-/// [`WeightsError::Parameter`] for another number of columns, [`WeightsError::Value`] for a scale
-/// that no data have.
+/// Returns [`WeightsError::Parameter`] for another number of columns, [`WeightsError::Value`] for a
+/// scale that no data have.
 pub fn check_scales(name: &str, scales: &Statistics, columns: usize) -> Result<(), WeightsError> {
     if scales.mean.len() != columns || scales.deviation.len() != columns {
         let (name, fault) = (name.to_owned(), "has a wrong length");

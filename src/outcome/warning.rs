@@ -30,7 +30,7 @@ pub enum Warning {
         /// The last model.
         model: ModelSpec,
     },
-    /// Something still moved at the end of the time limit for settling.
+    /// A body still moved at the end of the time limit for settling.
     NotAtRest {
         /// Time limit for settling, seconds.
         waited: f64,
@@ -236,8 +236,8 @@ pub enum Warning {
 }
 
 impl Warning {
-    /// Returns `true` if an outcome with this warning cannot count as success, which is the default
-    /// of a new kind.
+    /// Returns `true` if an outcome with this warning cannot count as success. A new kind of
+    /// warning returns `true` unless it is listed here.
     pub fn forbids_success(&self) -> bool {
         !matches!(
             self,

@@ -47,8 +47,8 @@ const BORDER: f64 = 0.3;
 /// Cost added if no path leads to the goal, metres: higher than any path, yet still ordered.
 const CUT_OFF: f64 = 10.0;
 
-/// Weight of a heading error in units of its tolerance. It counts, but rotation is left to the last
-/// push if possible.
+/// Weight of a heading error in units of its tolerance. The weight is small because the last push
+/// can rotate the object.
 const HEADING_WEIGHT: f64 = 0.5;
 
 /// Weight of obstructions: higher than the weight of moving the goal's object while clearing them.

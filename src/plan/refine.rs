@@ -31,15 +31,16 @@ use super::{
     Rollouts, Workspace, evaluate, preferred,
 };
 
-/// Initial trust radius for search results, in steps. An early stop is off by up to a frame, and an
-/// offset by up to half the coarse spacing.
+/// Initial trust radius for search results, in steps. An early stop has an error of up to a frame,
+/// and an offset of up to half the coarse spacing.
 pub const FOUND_RADIUS: f64 = 2.0;
 
-/// Largest error that refinement can correct, in tolerances: it moves final poses by centimetres.
+/// Largest error that refinement can correct, in units of the tolerance, because it moves final
+/// poses by centimetres.
 pub const REFINABLE: f64 = 5.0;
 
-/// Smallest and largest trust radius, in steps. Below the smallest, changes are lost in the noise
-/// of contact.
+/// Smallest and largest trust radius, in steps. The effect of smaller steps is less than the noise
+/// of contacts.
 const RADII: (f64, f64) = (0.05, 8.0);
 
 /// Radii of the programmes solved in each round, in units of the trust radius.

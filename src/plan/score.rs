@@ -8,7 +8,7 @@ use crate::{
 
 /// Amount added to the score of a blocked rollout. It exceeds any error in units of a tolerance, so
 /// that a blocked candidate is tried only if there is no other. Such candidates are not rejected,
-/// because a prediction that is off by a few millimetres proves nothing.
+/// because an error of a few millimetres in the prediction may cause the block.
 const BEHIND: f64 = 1e6;
 
 /// Returns the score of a finished rollout: the error in units of the tolerance. It is infinite if

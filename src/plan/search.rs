@@ -46,8 +46,7 @@ pub struct SearchSettings {
     pub rollouts: usize,
     /// Number of scored candidates kept.
     pub kept: usize,
-    /// Error that the effect model occasionally has, metres: later pushes keep this additional
-    /// room.
+    /// Occasional error of the effect model, metres. Later pushes keep this additional clearance.
     pub model_error: f64,
 }
 
@@ -99,8 +98,8 @@ impl<'a> Search<'a> {
         Some(Self::from_start(self.workspace, &self.situation, self.settings, kept, grips))
     }
 
-    /// Returns a new search for plans that first clear the region `corridor`, with the tool and
-    /// grip yaw (radians) of the plan that needs it free.
+    /// Returns a new search for plans that first clear the swept region `corridor` of another plan,
+    /// with that plan's tool and grip yaw (radians).
     pub fn clearing(&self, corridor: SweptRegion, grip: (usize, f64)) -> Self {
         let field = self.field.clone().clearing(corridor);
         let kept = (field, self.spread.clone());
@@ -159,7 +158,7 @@ impl<'a> Search<'a> {
         self.depth
     }
 
-    /// Returns the cost so far.
+    /// Returns the statistics of the search so far.
     pub fn statistics(&self) -> &SearchStatistics {
         &self.statistics
     }
@@ -169,13 +168,14 @@ impl<'a> Search<'a> {
         self.scores.list()
     }
 
-    /// Returns `true` if sequences of one more push are allowed and any state is left to continue.
+    /// Returns `true` if sequences with one more push are allowed, and a state remains from which
+    /// to continue.
     pub fn can_deepen(&self) -> bool {
         let any = self.depth == 0 || !self.ends.1.is_empty();
         self.depth < self.workspace.task.pushes.max_count && any
     }
 
-    /// Searches all sequences of one more push and returns the best ones, best first. `progress`
+    /// Searches all sequences with one more push and returns the best ones, best first. `progress`
     /// receives the numbers of completed and total rollouts. If it stops the search, the best
     /// results so far are returned.
     pub fn deepen(

@@ -1,4 +1,5 @@
-//! Region that a plan needs free: the places that its tool and the goal's object pass.
+//! Swept region of a plan, which must be free of obstructions: the places that its tool and the
+//! goal's object pass.
 //!
 //! A plan made without the other objects shows which of them must be cleared. Clearing the objects
 //! in its swept region suffices. Task planning uses relaxed plans in the same role (Bonet and

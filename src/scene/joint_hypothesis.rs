@@ -1,22 +1,22 @@
-//! Other beliefs about the joints of a scene: no joints, a fixed joint at every contact, or
-//! geometry guessed from the joint types.
+//! Alternative assumptions about the joints of a scene: no joints, a fixed joint at every contact,
+//! or known joint types with guessed geometry.
 
 use crate::geometry::{ContactPoint, Vector, contact_points};
 
 use super::{Joint, JointKind, Object, Physics, Scene};
 
-/// Largest gap at the start of objects that count as touching when every contact becomes a joint,
-/// metres. The thesis looks for joints within this distance.
+/// Gap between two objects at the start below which they count as touching when every contact
+/// becomes a fixed joint, metres. The joint inference of Tekden (2020) considers the same distance.
 pub const NEARLY_TOUCHING: f64 = 0.005;
 
 impl Physics {
-    /// Returns the belief of an observer who knows which objects of `scene` are joined and by which
-    /// type of joint, but not the axes.
+    /// Returns the physics that an observer assumes who knows which objects of `scene` are joined,
+    /// and by which type of joint, but not the axes.
     ///
     /// The geometry is guessed from the stated poses. The axis of a revolute joint is midway
     /// between the closest points of the two objects, a prismatic joint slides along the line of
-    /// their centres, and neither has limits. Such joints are marked [`Joint::guessed`]. A fixed
-    /// joint has no geometry to guess and stays as it is.
+    /// their centres, and neither has limits. Such joints are marked [`Joint::guessed`]. Fixed
+    /// joints are unchanged because they have no geometry to guess.
     pub fn guess_joints(&self, scene: &Scene) -> Self {
         let guess = |joint: &Joint| {
             let [first, second] = joint.between.map(|index| &scene.objects[index]);

@@ -1,8 +1,8 @@
 //! The plain data of scenes: objects, joints, obstacles, tools, the robot, physics and state.
 //!
-//! [`Physics`] holds the belief about objects; a [`Situation`] is a scene with the state of all
-//! objects and a belief about them. Goals and motions are in `task`, results in `outcome`. SI units
-//! and radians throughout. This module reads no files, simulates nothing and searches nothing.
+//! [`Physics`] holds assumed physical parameters; a [`Situation`] is a scene with these and the
+//! state of all objects. Goals and motions are in `task`, results in `outcome`. SI units and
+//! radians throughout. This module reads no files, simulates nothing and searches nothing.
 
 mod arm_fault;
 mod balance;

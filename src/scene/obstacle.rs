@@ -53,7 +53,7 @@ impl Obstacle {
         low < self.top() && self.z < high
     }
 
-    /// Returns it as a solid in space.
+    /// Returns it as a 3-D solid.
     pub fn solid(&self) -> Solid {
         let middle = Pose3::upright(self.pose, self.z + 0.5 * self.size[2]);
         Solid::cuboid(self.size, &middle)

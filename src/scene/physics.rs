@@ -1,11 +1,11 @@
-//! Beliefs about the objects of a scene: masses, frictions, supports and joints.
+//! Assumed physical parameters of a scene: masses, frictions, supports and joints.
 
 use std::sync::Arc;
 
 use super::{Feet, Joint, Object, PairFriction, Scene, Support, Surface, Tool, pair_friction};
 
 /// Physical parameters of a rollout. Effect models read these instead of the values in the scene,
-/// so that several beliefs about one scene can be rolled out side by side.
+/// so that a scene can be rolled out with several assumptions side by side.
 ///
 /// The friction value of a tool is stored in the tool.
 #[derive(Clone, Debug, PartialEq)]

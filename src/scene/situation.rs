@@ -1,4 +1,4 @@
-//! The present state of a scene, with a belief about it.
+//! The present state of a scene, with assumed physical parameters.
 
 use std::sync::Arc;
 
@@ -6,15 +6,15 @@ use crate::geometry::{Pose, Vector};
 
 use super::{GRAVITY, JointKind, Physics, Scene, State};
 
-/// The start of planning. Planning again from an intermediate state or under another belief is the
-/// same call with another situation.
+/// The start of planning. To plan again from an intermediate state or with other parameters, the
+/// caller passes another situation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Situation {
     /// Scene.
     pub scene: Arc<Scene>,
     /// Poses and velocities of all objects.
     pub start: State,
-    /// Belief about the objects.
+    /// Assumed physical parameters.
     pub physics: Arc<Physics>,
 }
 
@@ -54,8 +54,8 @@ impl Situation {
     ///
     /// Sliding under the ellipsoidal limit surface decelerates at about mu g along the generalised
     /// velocity s = sqrt(v^2 + c^2 omega^2). It lasts s / (mu g) and covers half the distance that
-    /// the present speeds would cover in that time. Exact without spin; a comparison of the stops
-    /// of a push, never a result.
+    /// the present speeds would cover in that time. Exact without rotation. It serves to compare
+    /// the stops of a push, and is never a result.
     pub fn coasted(&self, state: &State) -> State {
         let mut rest = state.clone();
         for k in 0..self.scene.objects.len() {

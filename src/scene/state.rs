@@ -33,7 +33,7 @@ pub struct State {
     pub poses: Vec<Pose>,
     /// Velocities in the world frame.
     pub velocities: Vec<Velocity>,
-    /// Poses in space, once an object has left the plane; `poses` are then their projections from
+    /// 3-D poses, after an object has left the plane; `poses` are then their projections from
     /// above.
     #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
     pub space: Option<Vec<Pose3>>,
@@ -60,7 +60,7 @@ impl State {
         Self { poses, velocities, space: None }
     }
 
-    /// Creates a state with the given poses in space and no motion.
+    /// Creates a state with the given 3-D poses and no motion.
     pub fn in_space(poses: Vec<Pose3>) -> Self {
         let seen = poses.iter().map(Pose3::from_above).collect();
         Self { space: Some(poses), ..Self::at_rest(seen) }

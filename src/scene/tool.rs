@@ -107,7 +107,7 @@ impl Tool {
     /// ```
     ///
     /// # Errors
-    /// [`ToolError`] if there are no parts or they form several pieces.
+    /// Returns [`ToolError`] if there are no parts or they form several pieces.
     pub fn new(
         name: impl Into<String>,
         parts: impl IntoIterator<Item = Part>,
@@ -119,7 +119,7 @@ impl Tool {
     /// not touch.
     ///
     /// # Errors
-    /// [`ToolError`] if there are no parts or they form several pieces.
+    /// Returns [`ToolError`] if there are no parts or they form several pieces.
     pub fn joined(
         name: impl Into<String>,
         parts: impl IntoIterator<Item = Part>,
@@ -214,7 +214,7 @@ impl Tool {
     /// Replaces the parts; parts that touch are joined.
     ///
     /// # Errors
-    /// [`ToolError`] if there are no parts or they form several pieces.
+    /// Returns [`ToolError`] if there are no parts or they form several pieces.
     pub fn with_parts(self, parts: impl IntoIterator<Item = Part>) -> Result<Self, ToolError> {
         let Self { name, description, grip, friction, .. } = self;
         Ok(Self { description, grip, friction, ..Self::new(name, parts)? })

@@ -1,4 +1,4 @@
-//! Colliders of the planar engine.
+//! Colliders of the 2-D engine.
 
 use rapier2d_f64::prelude::{
     CoefficientCombineRule, ColliderBuilder, MassProperties, Vector as RapierVector,

@@ -10,7 +10,7 @@ pub(super) const ALLOWED_ERROR: f64 = 1e-5;
 /// other (8 mm at 100).
 const SOFT_MASS_RATIO: f64 = 10.0;
 
-/// Contact spring of the planar engine: natural frequency (Hz) and damping ratio.
+/// Contact spring of the 2-D engine: natural frequency (Hz) and damping ratio.
 ///
 /// A can of 0.11 kg sinks by 1.7 mm into a pair of 0.82 kg that it pushes with rapier's default (30
 /// Hz, 5), and needs several frames to separate. Sinking decreases with the square of the
@@ -28,7 +28,7 @@ pub(super) const STIFF_CONTACT: (f64, f64) = (300.0, 1.0);
 /// Number of solver iterations in a step for articulated scenes; rapier's default is 4.
 ///
 /// Measured with a row of 8 cans on revolute joints, pushed 1 m at 0.21 m/s. The axes drift by at
-/// most 0.70 mm in the planar engine (0.92 in 3-D) with 4, 0.10 (0.16) with 6 and 0.06 (0.11) with
+/// most 0.70 mm in the 2-D engine (0.92 in 3-D) with 4, 0.10 (0.16) with 6 and 0.06 (0.11) with
 /// 8.
 pub(super) const ARTICULATED_ITERATIONS: usize = 6;
 

@@ -1,4 +1,4 @@
-//! The planar engine: rapier2d seen from above, with its own law of support friction.
+//! The 2-D engine: rapier2d seen from above, with its own law of support friction.
 //!
 //! There is no gravity; every object is a disc or a convex polygon that [`Support`] decelerates in
 //! each step. The world is centred on the objects. Poses are computed from the change against

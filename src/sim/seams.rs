@@ -1,4 +1,4 @@
-//! Contact hooks: no contacts at the seams of a tool or, in the planar engine, between bodies that
+//! Contact hooks: no contacts at the seams of a tool or, in the 2-D engine, between bodies that
 //! pass below each other; and frictions stated for pairs.
 //!
 //! The engines handle each piece of a tool alone, so a body that slides along the tool would catch

@@ -56,7 +56,7 @@ impl Simulator {
         self.retreats
     }
 
-    /// Creates the planar engine at its default step.
+    /// Creates the 2-D engine at its default step.
     pub const fn planar() -> Self {
         Self::new(Engine::Planar, Rate::DEFAULT)
     }

@@ -1,7 +1,7 @@
 //! Supports of bodies that cannot tip, in the 3-D engine.
 //!
 //! rapier loads all feet of such a body alike. The coefficients of friction of the feet therefore
-//! represent the load, and the shift of the load under a push is computed as in the planar engine.
+//! represent the load, and the shift of the load under a push is computed as in the 2-D engine.
 
 use rapier3d_f64::prelude::{ColliderHandle, ColliderSet};
 

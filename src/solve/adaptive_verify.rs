@@ -23,8 +23,8 @@ pub(super) struct Verification<'a> {
     pub verified: usize,
     /// Number of plans replayed with perturbations.
     pub perturbed: usize,
-    /// Whether any plan is worth verifying, in a solution without verification, which ends with the
-    /// first such plan. `None` if plans are verified.
+    /// Whether a plan is worth verifying, in a solution without verification; such a solution ends
+    /// with the first such plan. `None` if plans are verified.
     pub promising: Option<bool>,
 }
 

@@ -3,7 +3,7 @@
 //! `pushplan-lab tradeoff` measures robustness and cost of levels, and
 //! `crates/lab/results/tradeoff.json` holds the published measurement. A test compares the rows
 //! below with that file. If they differ, the published page must be marked stale; if they agree, no
-//! other level in which the network decides may be both cheaper and more robust.
+//! other level with the network as final model may be both cheaper and more robust.
 
 use std::num::NonZeroU16;
 
@@ -59,7 +59,7 @@ const MEDIUM: Settings = Settings {
 };
 
 impl Effort {
-    /// Returns the screening model, the deciding model, the budgets, and the number of perturbed
+    /// Returns the screening model, the final model, the budgets, and the number of perturbed
     /// replays of the winning plan in each engine. More replays than a level was measured with do
     /// not improve its plans, but measure their robustness more precisely.
     const fn level(self) -> (ModelKind, ModelKind, Settings, usize) {
@@ -81,9 +81,9 @@ impl Effort {
         Settings { replays, levers, ..settings }
     }
 
-    /// Returns the effect models of the level: the analytic model screens and the network decides.
-    /// The 2-D engine does both for pushes that move so many objects that the analytic model is no
-    /// longer clearly cheaper.
+    /// Returns the effect models of the level: the analytic model screens, and the network is the
+    /// final model. The 2-D engine replaces both for pushes that move so many objects that the
+    /// analytic model is no longer clearly cheaper.
     pub fn models(self) -> Models {
         let (screened, decided, ..) = self.level();
         let [screened, decided] = [screened, decided]

@@ -76,9 +76,9 @@ impl Planner {
         Ok(solution)
     }
 
-    /// Solves a task as [`Planner::solve_with`] does, from the given situation with its current
-    /// poses and beliefs. Only the robot, the tools, the rules for pushes and the goal are taken
-    /// from the task.
+    /// Solves a task as [`Planner::solve_with`] does, from the current poses and the assumed
+    /// parameters of `situation`. Only the robot, the tools, the rules for pushes and the goal are
+    /// taken from the task.
     ///
     /// # Errors
     /// Returns [`SolveError`] for invalid input only.

@@ -10,9 +10,9 @@ use crate::{
 
 use super::PlanStatus;
 
-/// Share of the tolerance within which a plan ends well inside in 3-D. In MuJoCo, 97.5 % of the
-/// plans of 241 random tasks work that end so, and reach the goal in all perturbed replays and in
-/// 2-D. Of the plans that end in the outer half, 55 % work.
+/// Share of the tolerance within which a plan ends well inside in 3-D. Of the plans for 241 random
+/// tasks that end this near to the goal, and reach it in 2-D and in all perturbed replays, 97.5 %
+/// work in MuJoCo. Of the plans that end in the outer half, 55 % work.
 pub const WELL_INSIDE: f64 = 0.5;
 
 /// Share of successful perturbed replays of a plan that works nearly always. In MuJoCo, of the
@@ -88,7 +88,8 @@ impl Grade {
         costs.then(other.compare(self))
     }
 
-    /// Returns `true` if the plan works nearly always, if it works at all.
+    /// Returns `true` if the plan, should it work as written, also works nearly always when
+    /// perturbed.
     pub fn is_steady(&self) -> bool {
         self.robustness >= STEADY
     }

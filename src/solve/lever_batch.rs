@@ -1,4 +1,4 @@
-//! Verification of complete plans that leave the plane, in groups of different kinds until one
+//! Verification of complete plans with lever-ups, in groups of different kinds, until a plan
 //! passes.
 
 use std::collections::HashMap;
@@ -67,8 +67,8 @@ pub(super) fn verify_in_groups(board: &mut Blackboard, task: &Task, plans: &mut 
     board.timing.verification += began.elapsed().as_secs_f64();
 }
 
-/// Returns the first `wanted` of `from`, with at most `most` of one kind while there are others;
-/// the plans in `verified` count also.
+/// Returns the first `wanted` plans of `from`. As long as there are other kinds, no kind has more
+/// than `most` plans, including the plans in `verified`.
 pub(super) fn mixed(
     from: &[usize],
     kinds: &[Kind],

@@ -19,8 +19,8 @@ use super::check::check;
 use super::error::SolveError;
 use super::settings::{Effort, Settings};
 
-/// Planner of tools and pushes for tasks. It has one effort and one effect model, or one model that
-/// screens and another that decides.
+/// Planner of tools and pushes for tasks. It has one effort and one effect model, or a screening
+/// model and a final model.
 ///
 /// ```
 /// use pushplan::{Effort, PlanStatus, Planner, Simulated, Simulator, Task, ToolLibrary};
@@ -36,7 +36,7 @@ use super::settings::{Effort, Settings};
 /// ```
 pub struct Planner {
     model: Fallback,
-    /// Screening model, if it differs from the deciding one.
+    /// Screening model, if it differs from the final model.
     screen: Option<Fallback>,
     out_of_range: OutOfRange,
     settings: Settings,
@@ -99,7 +99,7 @@ impl PlannerBuilder {
     }
 
     /// Sets a cheaper model for the many rollouts of the search and the first rounds of refinement.
-    /// The planner's own model decides on the results.
+    /// The planner's own model is then the final model.
     pub fn screened_by(mut self, screen: impl EffectModel + 'static) -> Self {
         self.screen = Some(Arc::new(screen));
         self
@@ -144,7 +144,7 @@ impl Planner {
         })
     }
 
-    /// Returns this planner with another fit of the table.
+    /// Returns this planner with another table fit.
     ///
     /// # Errors
     /// Returns [`ModelError`] as [`Self::fitted`] does.
@@ -166,23 +166,23 @@ impl Planner {
         Ok(Self::with_models(&effort.models())?.effort(effort))
     }
 
-    /// Returns the effect model that decides.
+    /// Returns the final model.
     pub fn model(&self) -> &dyn EffectModel {
         &self.model
     }
 
     /// Returns the effect model of the many rollouts: the screening model if there is one,
-    /// otherwise the deciding model.
+    /// otherwise the final model.
     pub fn screen(&self) -> &dyn EffectModel {
         self.screen.as_ref().unwrap_or(&self.model)
     }
 
-    /// Returns the fit of the table.
+    /// Returns the table fit.
     pub fn fit(&self) -> Option<&TableFit> {
         self.fit.as_ref()
     }
 
-    /// Returns `true` if another model screens for the deciding one.
+    /// Returns `true` if the screening model differs from the final model.
     pub(super) fn is_screened(&self) -> bool {
         self.screen.is_some()
     }

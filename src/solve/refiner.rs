@@ -35,8 +35,8 @@ impl<'a> Refiner<'a> {
         }
     }
 
-    /// Refines candidates towards `aims`, the task's goals or shifted copies of them. If one model
-    /// screens and another decides, the final model makes the last rounds.
+    /// Refines candidates towards `aims`, the task's goals or shifted copies of them. If the
+    /// screening model differs from the final model, the final model makes the last rounds.
     pub fn refine(
         &mut self,
         query: &Query,
@@ -71,8 +71,8 @@ impl<'a> Refiner<'a> {
         self.deciding.as_mut().unwrap_or(&mut self.screening).count(decided);
     }
 
-    /// Predicts candidates with the final model and refines the best of them with it. Returns none
-    /// if a single model screens and decides.
+    /// Predicts candidates with the final model and refines the best of them with it. Returns no
+    /// candidates if a single model is both screening and final model.
     pub fn decide(
         &mut self,
         query: &Query,

@@ -61,11 +61,12 @@ pub struct Settings {
     /// Number of random samples per round in addition to two for each parameter. They average out
     /// contact noise.
     pub refine_extra: usize,
-    /// Number of the last refinement rounds that use the deciding model, if another model screens;
-    /// the screening model makes the earlier rounds. Older measured files may lack this field.
+    /// Number of the last refinement rounds, which use the final model if it differs from the
+    /// screening model; the screening model makes the earlier rounds. Older measured files may lack
+    /// this field.
     #[serde(default)]
     pub decided_rounds: usize,
-    /// Number of candidates in these rounds: the best after the deciding model has predicted all of
+    /// Number of candidates in these rounds: the best after the final model has predicted all of
     /// them.
     #[serde(default)]
     pub short_list: usize,

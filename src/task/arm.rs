@@ -38,7 +38,8 @@ pub trait RobotArm: Any + Debug + Send + Sync {
     /// objects before the first push and after each push.
     ///
     /// # Errors
-    /// The first push that no posture carries out, and the reason.
+    /// Returns the first push that the arm cannot execute from any joint configuration, and the
+    /// reason.
     fn follow(
         &self,
         task: &Task,

@@ -237,7 +237,7 @@ impl Task {
         self.levers.clone().unwrap_or_default()
     }
 
-    /// Returns `true` if some object is in space or may be levered.
+    /// Returns `true` if an object has a 3-D pose or may be levered.
     pub fn in_space(&self) -> bool {
         self.levers.is_some() || self.scene.in_space()
     }

@@ -77,7 +77,7 @@ pub enum Demand {
 pub struct End<'a> {
     /// Index of the goal's object into [`Scene::objects`].
     pub object: usize,
-    /// Poses at rest, in the plane or in space.
+    /// Poses at rest, in the plane or 3-D.
     pub state: &'a State,
     /// Last lift of the object, if a blade lifted it.
     pub lift: Option<Lift>,

@@ -38,8 +38,7 @@ impl Job {
         motions.iter().map(|motion| Self::new(situation, motion.clone())).collect()
     }
 
-    /// Returns `true` if it leaves the plane or starts out of it, so that it needs a model in
-    /// space.
+    /// Returns `true` if it leaves the plane or starts out of it, so that it needs a 3-D model.
     pub fn in_space(&self) -> bool {
         self.motion.is_lever() || self.start.space.is_some()
     }

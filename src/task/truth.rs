@@ -25,7 +25,7 @@ impl Truth {
     /// Default observation errors of a good camera: 1 mm and half a degree.
     pub const NOISE: Noise = Noise { position: 1e-3, heading: 0.5 * std::f64::consts::PI / 180.0 };
 
-    /// Creates a world as `scene` states it, in the planar engine, observed with [`Self::NOISE`].
+    /// Creates a world as `scene` states it, in the 2-D engine, observed with [`Self::NOISE`].
     pub fn stated(scene: &Scene, seed: u64) -> Self {
         Self {
             scene: scene.clone(),

@@ -284,7 +284,7 @@ fn results_of_one_kind_or_task_do_not_write_over_those_of_another() {
     assert!(names.contains(&"my-task.run.html".to_owned()), "{names:?}");
     let trace = within("out/my-task.run.json");
     let checked = run(&["check", &trace]);
-    assert_eq!(String::from_utf8_lossy(&checked.stdout), format!("{trace}: run, fine\n"));
+    assert_eq!(String::from_utf8_lossy(&checked.stdout), format!("{trace}: run, valid\n"));
     let text = std::fs::read_to_string(&trace).expect("a trace");
     std::fs::write(&trace, &text[..text.len() / 2]).expect("half of it");
     assert_eq!(run(&["check", &trace]).status.code(), Some(3));
@@ -323,18 +323,18 @@ fn check_says_why_there_is_no_plan_only_when_asked() {
         assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
         String::from_utf8_lossy(&output.stdout).into_owned()
     };
-    assert_eq!(message(&["check", &far], 0), format!("{far}: task, fine\n"));
+    assert_eq!(message(&["check", &far], 0), format!("{far}: task, valid\n"));
     let text = message(&["check", "--why", &far, &near, "tasks/levers/raise-plate.yaml"], 4);
     assert!(
-        text.contains("fine\n  no plan: the task needs 2 pushes, but `pushes.max_count` is 1"),
+        text.contains("valid\n  no plan: the task needs 2 pushes, but `pushes.max_count` is 1"),
         "{text}"
     );
     assert!(
-        text.contains("fine\n  search predicts success; `pushplan solve` verifies the plan"),
+        text.contains("valid\n  search predicts success; `pushplan solve` verifies the plan"),
         "{text}"
     );
     assert!(
-        text.ends_with("fine\n  --why does not support levering tasks; use `pushplan solve`\n"),
+        text.ends_with("valid\n  --why does not support levering tasks; use `pushplan solve`\n"),
         "{text}"
     );
 }

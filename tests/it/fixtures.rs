@@ -53,7 +53,7 @@ pub fn engines() -> [Simulator; 2] {
     [Simulator::planar(), Simulator::spatial()]
 }
 
-/// Returns a hand as in the thesis: a cylinder of 10 cm diameter about the end effector.
+/// Returns a hand as in Tekden (2020): a cylinder of 10 cm diameter about the end effector.
 pub fn hand() -> Arc<Tool> {
     let shape = Shape::Cylinder { radius: 0.05, height: 0.1 };
     let part = Part::new("hand", shape, Pose::default());

@@ -1,4 +1,4 @@
-//! Lever tasks in scenes with joints, pair frictions, regions, table edges and several goals.
+//! Levering tasks in scenes with joints, pair frictions, regions, table edges and several goals.
 
 use pushplan::asset::{PlanFile, ToolLibrary};
 use pushplan::outcome::{LeverFault, Warning};

@@ -1,4 +1,4 @@
-//! The planner from end to end, with the planar engine as effect model.
+//! The planner from end to end, with the 2-D engine as effect model.
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -52,7 +52,7 @@ impl EffectModel for Wishful {
     }
 }
 
-/// Planar engine that predicts the end of every push next to its true end.
+/// 2-D engine that predicts the end of every push next to its true end.
 struct Beside(Simulated, Vector);
 
 impl EffectModel for Beside {

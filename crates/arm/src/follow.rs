@@ -4,9 +4,9 @@
 //! retreat, and up. Between pushes the joints move linearly. If that collides, they move through
 //! the home configuration, rotated to the start and then to the end.
 //!
-//! The start configuration of a push is searched near the current one first, then anywhere; the
-//! first that completes the push is used. After the last push the arm returns home, the start of
-//! the next plan, if possible.
+//! The start configuration of a push is searched for near the current one first, then everywhere;
+//! the first from which the whole push is feasible is used. After the last push the arm returns
+//! home, the start of the next plan, if possible.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Convex solids in space: a few points, and a radius around their convex hull.
+//! Convex 3-D solids: a few points, and a radius around their convex hull.
 //!
 //! A ball has one point, a capsule two, a box eight. A mesh keeps the corners that determine its
 //! outline, and the radius covers the error. Distances are computed by the GJK algorithm of parry.

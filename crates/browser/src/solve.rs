@@ -20,7 +20,8 @@ pub struct Solved {
 /// Solves the task of a text. `file` is the name of the text, and `example` the name of the shipped
 /// task, or empty. `effort` is `draft`, `standard` or `thorough`.
 ///
-/// # Errors Returns the faults of the task.
+/// # Errors
+/// Returns the faults of the task.
 #[wasm_bindgen]
 pub fn solve(text: &str, file: &str, example: &str, effort: &str) -> Result<Solved, String> {
     let library = library()?;

@@ -17,7 +17,8 @@ pub fn examples() -> Vec<String> {
 
 /// Returns the text of a shipped task.
 ///
-/// # Errors If there is no task of this name.
+/// # Errors
+/// Returns an error if there is no task of this name.
 #[wasm_bindgen]
 pub fn example(name: &str) -> Result<String, String> {
     asset::example_text(name).map(str::to_owned).map_err(|faults| faults.to_string())
@@ -31,7 +32,8 @@ pub fn bare() -> String {
 
 /// Returns the names of the shipped tools as JSON: tools that push, and tools that lever.
 ///
-/// # Errors If the library was built around damaged tools.
+/// # Errors
+/// Returns an error if the library was built with damaged tools.
 #[wasm_bindgen]
 pub fn tools() -> Result<String, String> {
     let library = library()?;
@@ -64,7 +66,8 @@ pub fn look(text: &str, file: &str) -> String {
 /// Returns the text after changes, which are a JSON list of `{path, value}`. A change without a
 /// value removes the entry.
 ///
-/// # Errors If the text is not YAML or a path does not exist.
+/// # Errors
+/// Returns an error if the text is not YAML or a path does not exist.
 #[wasm_bindgen]
 pub fn edit(text: &str, file: &str, edits: &str) -> Result<String, String> {
     let edits: Vec<Edit> = serde_json::from_str(edits).map_err(|error| error.to_string())?;

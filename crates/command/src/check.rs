@@ -1,5 +1,5 @@
-//! `pushplan check`: reads files and reports all errors, and prints JSON schemas of user-written
-//! files.
+//! `pushplan check`: reports all errors of files, or prints the JSON schema of a kind of file that
+//! users write.
 
 use std::path::{Path, PathBuf};
 
@@ -73,7 +73,7 @@ pub fn run(args: &CheckArgs, session: &Session) -> Result<u8, CliError> {
         };
         match asset::check(file, Some(&library)).and_then(read) {
             Ok(kind) => {
-                session.print(&format!("{}: {kind}, fine\n", file.display()))?;
+                session.print(&format!("{}: {kind}, valid\n", file.display()))?;
                 if args.why && kind == Kind::Task {
                     code = code.max(why(file, &library, session)?);
                 }

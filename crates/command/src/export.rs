@@ -206,7 +206,7 @@ fn name(path: &Path, format: Format) -> String {
     format!("{stem}.{}", format.ending())
 }
 
-/// Stands for the writer in a build without it, which refuses the format before anything is read.
+/// Replaces the writer in a build without MCAP, which rejects the format before it reads any file.
 #[cfg(not(feature = "mcap"))]
 fn mcap(_: &PlanFile, _: &Trajectory) -> Result<Vec<u8>, ExportError> {
     Err(ExportError::Mcap("this build writes no MCAP".to_owned()))

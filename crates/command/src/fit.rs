@@ -23,8 +23,8 @@ use super::{
 the friction coefficient between pusher and objects. The spread is the distance of the support \
 points from the centre, as a share of the corners' distance or of the radius. Give recordings of \
 one object or of similar objects, one push each; fifty pushes of 1 cm are enough. The fit compares \
-final poses and assumes errors with Student's distribution. The analytic model `prior` is for slow \
-pushes, up to 0.02 m/s; for faster pushes use --model planar.
+final poses and assumes errors with Student's t distribution. The analytic model `prior` is for \
+slow pushes, up to 0.02 m/s; for faster pushes use --model planar.
 
 With --save-fit, the network also learns the remaining error from the same recordings, which needs \
 about twenty pushes. The option `--fit FILE` of solve and predict reads the file.

@@ -139,7 +139,7 @@ pub fn run(args: &ImportArgs, session: &Session) -> Result<u8, CliError> {
             let Imported { value, notes } = objects(&model, &file, &wanted)?;
             let ImportedScene { task, has_goal } = value;
             let yours = if has_goal { "robot and tools" } else { "robot, tools and goal" };
-            let header = format!("{from} Yours to write: {yours}.");
+            let header = format!("{from} Placeholders to edit: {yours}.");
             (format!("{header}\n{}", task.to_yaml()?), notes)
         }
     };

@@ -48,7 +48,7 @@ pub const DEFAULT: &str = "network";
 /// Loads the model that `spec` describes.
 ///
 /// # Errors
-/// Returns an error if a weights file is missing, damaged or not of pushplan.
+/// Returns an error if a weights file is missing, damaged or of another program.
 pub fn load(spec: &ModelSpec) -> Result<Fallback, CliError> {
     Ok(EffectModels::build(spec)?)
 }
@@ -56,7 +56,7 @@ pub fn load(spec: &ModelSpec) -> Result<Fallback, CliError> {
 /// Loads the weights of a network; returns `None` for other models.
 ///
 /// # Errors
-/// Returns an error if a weights file is missing, damaged or not of pushplan.
+/// Returns an error if a weights file is missing, damaged or of another program.
 pub fn weights(spec: &ModelSpec) -> Result<Option<PredictorWeights>, CliError> {
     Ok(EffectModels::weights_of(spec)?)
 }
@@ -100,7 +100,7 @@ impl TableArgs {
 pub fn state(fit: &TableFit, scene: &mut Scene, session: &Session) {
     for object in fit.strange(scene) {
         session.warn(&format!(
-            "the table fit was learnt on other objects than `{object}`, so its correction of the \
+            "the table fit was learned on other objects than `{object}`, so its correction of the \
              network is scaled to {:.0} %",
             100.0 * OTHER_OBJECTS
         ));
@@ -139,7 +139,7 @@ impl OutOfRangeArgs {
         self.fitted(spec, None)
     }
 
-    /// Loads the model with the fit of a table.
+    /// Loads the model with a table fit.
     ///
     /// # Errors
     /// Returns the errors of [`load`], and an error for a fit of other weights.

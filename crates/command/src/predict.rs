@@ -96,7 +96,7 @@ struct Asked {
     task: Task,
     tools: Vec<Arc<Tool>>,
     plan: Plan,
-    /// Fit of the table used by the plan's model.
+    /// Table fit used by the plan's model.
     fit: Option<TableFit>,
 }
 
@@ -142,7 +142,7 @@ impl PredictArgs {
         let source = TaskSource::of(file);
         if kind == Kind::Plan {
             let PlanFile { task, tools, plan, model, fit, .. } = PlanFile::load(file)?;
-            // The fit belongs to the network that made the plan only.
+            // The fit belongs only to the network that made the plan.
             let fit = fit.filter(|_| self.model.is_none() || self.model == model);
             return Ok(Asked { source, task, tools, plan, fit });
         }

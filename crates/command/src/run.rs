@@ -46,7 +46,7 @@ Writes <out>/<task>.run.json after every push. After an interruption, rerun the 
 predictions, the observations and the beliefs. Drawings are <task>.run.svg and <task>.belief.svg.
 
 Exit code 0: the last observation meets the goal. 4: no push brings the object nearer to the goal. \
-5: the maximum number of pushes is exhausted.
+5: the maximum number of pushes is reached.
 
 Examples:
   pushplan run --example hidden-hinge --world 1

@@ -28,8 +28,8 @@ pub struct GlobalArgs {
 const STAGE: &str = "{spinner} {prefix}, {elapsed} {msg}";
 const COUNTED: &str = "{spinner} {prefix}, {elapsed} {msg}, {pos}/{len}";
 
-/// Delay before progress is shown. A first plan is often found by then, and a user notices it
-/// within a tenth of a second.
+/// Delay before progress is shown. A first plan is often found within this time, and a user does
+/// not notice a delay below a tenth of a second.
 const SHOW_AFTER: Duration = Duration::from_millis(50);
 
 /// Session of one command, with its thread pool.

@@ -15,10 +15,10 @@ use super::strokes::numeric;
 use super::tool::pieces;
 use super::xml::{Xml, numbers};
 
-/// Density of links, kg/m3: the 18 litres within a Panda's hulls weigh 18 kg.
+/// Density of links, kg/m^3: the 18 litres within a Panda's hulls weigh 18 kg.
 const DENSITY: f64 = 1000.0;
 
-/// Density of tools, kg/m3, as of wood: the stick weighs a kilogram.
+/// Density of tools, kg/m^3, as of wood: the stick weighs a kilogram.
 const TOOL_DENSITY: f64 = 500.0;
 
 /// Radius of the visible rod between flange and tool, metres.
@@ -27,7 +27,7 @@ const MOUNT: f64 = 0.012;
 /// Mass of a link without solids, kg.
 const BARE: f64 = 0.1;
 
-/// Armature of joints, kg m2 or kg: the inertia of rotors behind their gears.
+/// Armature of joints, kg m^2 or kg: the inertia of rotors behind their gears.
 const ROTOR: f64 = 0.1;
 
 /// Stiffness and damping of revolute joints, Nm/rad and Nm s/rad. A load of 20 N at 60 cm bends a

@@ -42,7 +42,7 @@ pub(super) fn transform(at: u64, child: &str, frame: &Pose, height: f64) -> Json
     })
 }
 
-/// Returns a `foxglove.FrameTransform` of a frame in space.
+/// Returns a `foxglove.FrameTransform` of a 3-D pose.
 pub(super) fn transform_3d(at: u64, child: &str, frame: &Pose3) -> Json {
     let [x, y, z, w] = frame.quaternion();
     json!({

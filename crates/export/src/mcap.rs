@@ -170,7 +170,7 @@ fn frame_of(tool: usize) -> String {
     if tool == 0 { "tool".to_owned() } else { format!("tool/{tool}") }
 }
 
-/// Returns the bodies with their own frames; in space, a compound object has one frame.
+/// Returns the bodies with their own frames; in 3-D plans, a compound object has one frame.
 fn drawn(plan: &PlanFile) -> impl Iterator<Item = (usize, &Object)> {
     let together = in_space(plan);
     let solids = plan.task.scene.objects.iter().enumerate();

@@ -1,4 +1,4 @@
-//! MJCF of objects in space: solids, feet, joints, and the friction of pairs.
+//! MJCF of objects with six degrees of freedom: solids, feet, joints, and the friction of pairs.
 
 use pushplan::geometry::{Pose3, Vector, Vector3};
 use pushplan::scene::{Body, Obstacle, Physics, Plate, Scene, Slab, Surface, stands_on};

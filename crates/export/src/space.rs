@@ -21,8 +21,8 @@ use super::solids::{Meets, Stage, body, slab_name};
 use super::wanted::checks;
 use super::xml::{Xml, numbers};
 
-/// Script that executes scenes written by [`lever_mjcf()`], or by [`mjcf()`](super::mjcf()) for
-/// plans in space, and prints their results.
+/// Script that executes scenes written by [`lever_mjcf()`], or by [`mjcf()`](super::mjcf()) for 3-D
+/// plans, and prints their results.
 pub const LEVER_SCRIPT: &str = pushplan_page::LEVER;
 
 /// Time step, seconds. Sliding bodies in MuJoCo are pushed off slightly, less with shorter steps

@@ -73,7 +73,7 @@ pub(super) fn tool(xml: &mut Xml, taken: &Taken, turns: bool, hand: Option<Carri
 }
 
 /// Writes the solids of a tool with a name prefix, at a pose in its body, with undersides at a
-/// height, metres, and of a density, kg/m3.
+/// height, metres, and of a density, kg/m^3.
 pub(super) fn pieces(
     xml: &mut Xml,
     (prefix, tool): (&str, &Tool),

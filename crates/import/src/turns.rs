@@ -1,4 +1,4 @@
-//! Rotations in space in the notations of files.
+//! 3-D rotations in the notations of files.
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 

@@ -1,4 +1,4 @@
-//! Friction of the points of support of a moving object.
+//! Friction of the support points of a moving object.
 
 use std::sync::OnceLock;
 

@@ -1,4 +1,4 @@
-//! The points of support of an object.
+//! The support points (feet) of an object.
 
 use crate::Vector;
 
@@ -9,7 +9,7 @@ pub const MAX_FEET: usize = 16;
 /// rounding.
 const MIDDLE: f64 = 1e-9;
 
-/// Points of support of an object with their shares of its weight.
+/// Support points of an object with their shares of its weight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feet {
     /// Coordinates in the object's frame, metres; entries beyond `count` carry nothing.
@@ -135,8 +135,8 @@ impl Feet {
     }
 
     /// Returns the shares of the weight with the centre of the load at `lean`, in the object's
-    /// frame. Points cannot pull. Where some would have to, the others carry the whole load, and
-    /// its centre is closer to the middle.
+    /// frame. Points cannot pull. If the load of a point would be negative, the other points carry
+    /// the whole load, whose centre is then closer to the middle than `lean`.
     pub fn leaning(&self, lean: Vector) -> [f64; MAX_FEET] {
         let slope = self.slope(lean);
         let mut load = self.load;

@@ -42,7 +42,8 @@ pub struct SingleBodyFrame<'a> {
     pub lean: f64,
     /// Mean distance c of the support's points from the centre, metres.
     pub support: f64,
-    /// (c / rho)^2, the ratio of the spin's friction deceleration (in c omega) to the slide's.
+    /// (c / rho)^2, the ratio of the rotational friction deceleration (in c omega) to the
+    /// translational.
     pub spin: f64,
     /// Duration of the frame, seconds.
     pub duration: f64,

@@ -1,16 +1,16 @@
-//! Counts of the work on equations of frames.
+//! Counters of the work of the frame solver.
 
 use serde::{Deserialize, Serialize};
 
-/// Counts of the work on many frames' equations.
+/// Counters of the work of solving the equations of frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SolverStats {
     /// Number of systems solved: two for each piece of a frame, for displacements and for
     /// velocities.
     pub systems: u64,
-    /// Number of contacts and joint limits in them.
+    /// Number of contacts and joint limits in these systems.
     pub constraints: u64,
-    /// Number of updates of their weights.
+    /// Number of iterations, each of which updates the weights of the support points.
     pub updates: u64,
     /// Number of times that the resistance of an object was computed.
     pub weighed: u64,
@@ -18,9 +18,10 @@ pub struct SolverStats {
     pub rounds: u64,
     /// Number of linear equations in these sets.
     pub rows: u64,
-    /// Number of updates without a consistent set, whose solution was approximated by iteration.
+    /// Number of updates without a consistent active set; their solutions were approximated by
+    /// iteration.
     pub approached: u64,
-    /// Floating-point operations on points of support and linear equations: the unavoidable work of
+    /// Floating-point operations on support points and linear equations: the unavoidable work of
     /// the method.
     pub operations: u64,
 }
@@ -38,9 +39,9 @@ impl SolverStats {
         self.operations += other.operations;
     }
 
-    /// Counts the resistance of an object with `points` points of support. Each point takes two
-    /// products and a sum for the speed along either axis, their length, a quotient, and five sums
-    /// of products.
+    /// Counts the resistance of an object with `points` support points. Each point takes two
+    /// products and a sum for the velocity along either axis, the norm of the velocity, a quotient,
+    /// and five sums of products.
     #[inline(always)]
     pub fn weigh(&mut self, points: usize) {
         self.weighed += 1;

@@ -8,11 +8,11 @@ use pushplan::internals::{outcome::LeverTrajectory, task::LeverJob};
 /// Differences between two trajectories of a lever-up.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverError {
-    /// Root mean square distance of the centres of mass over the frames of the turn, metres.
+    /// Root mean square distance of the centres of mass over the frames of the rotation, metres.
     pub lift: f64,
-    /// Distance of the centres of mass at the end of the turn, metres.
+    /// Distance of the centres of mass at the end of the rotation, metres.
     pub last: f64,
-    /// Angle between both rotations at the end of the turn, radians.
+    /// Angle between both orientations at the end of the rotation, radians.
     pub turn: f64,
     /// Distance of the centres of mass at rest, metres.
     pub rest: f64,

@@ -50,8 +50,8 @@ impl PyTrajectory {
         arrays::array(py, numbers, [frames.len(), self.objects.len(), 3])
     }
 
-    /// Poses of all objects in space, `[frames, objects, 7]`: x, y and z in metres, and the
-    /// quaternion x, y, z, w. `None` if no object leaves the plane.
+    /// 3-D poses of all objects, `[frames, objects, 7]`: x, y and z in metres, and the quaternion
+    /// x, y, z, w. `None` if no object leaves the plane.
     #[getter]
     fn space<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray3<f64>>>> {
         let frames = &self.trajectory.frames;

@@ -55,7 +55,7 @@ def test_ctrl_c_ends_the_command_as_it_does_the_binary(tmp_path: Path) -> None:
         job.send_signal(signal.SIGINT)
         said = job.communicate(timeout=60)[1].decode()
     assert job.returncode == 130, said
-    assert "goes on from there" in said and "Traceback" not in said
+    assert "rerun the same command to resume" in said and "Traceback" not in said
 
 
 def test_other_threads_run_meanwhile(task: pushplan.Task) -> None:

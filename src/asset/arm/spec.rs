@@ -72,7 +72,7 @@ pub(in crate::asset) const BASE: Key = Key::optional(
 pub(in crate::asset) const HOME: Key = Key::optional(
     "home",
     Value::List { of: &COORDINATE, items: "numbers", min: 1, max: MAX_JOINTS },
-    "Where chained pushes start, [x, y] in metres; by default the nearest point of the reach in \
+    "Start of chained pushes, [x, y] in metres; by default the nearest point of the reach in \
      front of the base. With `urdf`, the joint positions at which plans begin, radians (metres for \
      prismatic joints); by default above the middle of the arm's reach.",
 );

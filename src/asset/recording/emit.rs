@@ -15,8 +15,8 @@ impl Recording {
     /// Writes the recording as JSON; a partial file is never left behind.
     ///
     /// # Errors
-    /// The path cannot be written, or the content could not be read back, for example because a
-    /// number is not finite.
+    /// Returns an error if the path cannot be written, or the content could not be read back, for
+    /// example because a number is not finite.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Faults> {
         let path = path.as_ref();
         let name = path.display().to_string();

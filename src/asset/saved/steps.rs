@@ -50,9 +50,9 @@ const PLACE: Key = Key::required(
         Key::required("edge", INDEX, "The edge from this corner to the next."),
         Key::required("fraction", SHARE, "Position along the edge."),
     ]),
-    "Where the blade enters below the outline.",
+    "Place on the outline below which the blade enters.",
 );
-const DEPTH: Key = Key::required("depth", LEVER, "How far the tip lies behind the edge, metres.");
+const DEPTH: Key = Key::required("depth", LEVER, "Distance of the tip behind the edge, metres.");
 const PIVOT: Key =
     Key::required("pivot", REAL, "Distance of the axis from the edge, inward, metres.");
 const ANGLE: Key = Key::required("angle", TURN, "Rotation of the blade, radians.");

@@ -61,8 +61,8 @@ impl TrajectoryFile {
     /// Writes the file; a partial file is never left behind.
     ///
     /// # Errors
-    /// The path cannot be written, or the content could not be read back, for example because a
-    /// number is not finite.
+    /// Returns an error if the path cannot be written, or the content could not be read back, for
+    /// example because a number is not finite.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Faults> {
         read::write(path.as_ref(), self, Self::parse)
     }

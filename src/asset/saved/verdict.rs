@@ -17,7 +17,11 @@ const MISS: Value = Value::Map(&[
         HEADING_ERROR,
         "Heading error, radians; by default the goal has no heading.",
     ),
-    Key::required("score", SCORE, "The least satisfied criterion, at most 1 if it is met."),
+    Key::required(
+        "score",
+        SCORE,
+        "Largest error of all criteria, in units of their tolerances; at most 1 if all are met.",
+    ),
     Key::optional(
         "raised",
         REAL,

@@ -21,7 +21,7 @@ impl Task {
     /// for bit if the angles came from a file or are round in degrees.
     ///
     /// # Errors
-    /// The task holds a value that a file cannot represent.
+    /// Returns an error if the task holds a value that a file cannot represent.
     pub fn to_yaml(&self) -> Result<String, Faults> {
         serde_yaml::to_string(&emit::task(self)).map_err(|error| {
             let message = format!("the task cannot be written as YAML: {error}");

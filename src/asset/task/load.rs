@@ -42,7 +42,8 @@ impl Task {
     /// of the library.
     ///
     /// # Errors
-    /// A fault for every name that is not in the library, or one fault if there is no tool.
+    /// Returns a fault for every name that is not in the library, or one fault if the library is
+    /// empty.
     pub fn tools(&self, library: &ToolLibrary) -> Result<Vec<Arc<Tool>>, Faults> {
         if self.tools == ToolChoice::All && library.is_empty() {
             let advice = "add a tool file to the folder, or name another folder";
@@ -57,7 +58,8 @@ impl Task {
     /// of the library.
     ///
     /// # Errors
-    /// A fault for every name that is not in the library, or one fault if there is no such tool.
+    /// Returns a fault for every name that is not in the library, or one fault if the library has
+    /// no blades.
     pub fn blades(&self, library: &ToolLibrary) -> Result<Vec<Arc<Tool>>, Faults> {
         if self.tools == ToolChoice::All && library.blades().is_empty() {
             let message = "all tools with blades are allowed, but the library has none";

@@ -84,7 +84,7 @@ fn rules(root: &Node, task: &Task, ledger: &mut Ledger) {
         let Some(read) = joint_of(joint, &task.scene.objects) else {
             if joint.get("axis").is_some_and(|axis| !axis.items().is_empty()) && kind.is_some() {
                 let advice = "write a direction, such as [1, 0] for +x";
-                ledger.fault(joint, "this joint cannot be read", advice);
+                ledger.fault(joint, "this joint has no valid axis", advice);
             }
             continue;
         };

@@ -45,7 +45,7 @@ impl LeverNetwork {
     /// Creates a network with these weights.
     ///
     /// # Errors
-    /// [`LeverNetworkError::Inputs`] if their input widths contradict the card.
+    /// Returns [`LeverNetworkError::Inputs`] if their input widths contradict the card.
     pub fn new(weights: &LeverWeights) -> Result<Self, LeverNetworkError> {
         let card = &weights.card;
         let sizes = LeverInputs::sizes(card.features, card.prior, card.sizes.width);
@@ -62,7 +62,7 @@ impl LeverNetwork {
     /// Returns the shipped network.
     ///
     /// # Errors
-    /// [`LeverNetworkError`] if the library contains a damaged file.
+    /// Returns [`LeverNetworkError`] if the library contains a damaged file.
     pub fn shipped() -> Result<Self, LeverNetworkError> {
         let weights = LeverWeights::from_bytes(pushplan_models::LEVER).map_err(|error| {
             LeverNetworkError::Weights { path: "lever.safetensors".to_owned(), error }
@@ -73,7 +73,7 @@ impl LeverNetwork {
     /// Reads a weights file.
     ///
     /// # Errors
-    /// [`LeverNetworkError`] if it cannot be used.
+    /// Returns [`LeverNetworkError`] if it cannot be used.
     pub fn load(path: &Path) -> Result<Self, LeverNetworkError> {
         let named = |error| LeverNetworkError::Weights { path: path.display().to_string(), error };
         Self::new(&LeverWeights::load(path).map_err(named)?)

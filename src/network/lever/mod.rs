@@ -11,7 +11,7 @@
 //! pose_t = base_t + h_t V + a                        end = base + relu(h_T U + b_u) V_e + a_e
 //! ```
 //!
-//! A network can also receive its last predicted pose as feedback, for comparison with the thesis.
+//! A network can also receive its last predicted pose as feedback, for comparison with that work.
 //!
 //! `base` is the output of the analytic model, or the start. The end consists of slip and ending as
 //! logits, and the pose at rest.

@@ -57,8 +57,8 @@ pub struct Followed {
     pub state: State,
 }
 
-/// Finds pushes along `legs` with one tool and grip yaw. The first of `models` screens candidates
-/// and the second decides; `used` counts the rollouts of each.
+/// Finds pushes along `legs` with one tool and grip yaw. The first of `models` is the screening
+/// model and the second the final model; `used` counts the rollouts of each.
 pub fn follow(
     workspace: &Workspace,
     situation: &Situation,

@@ -2,11 +2,11 @@
 
 use crate::geometry::{Footprint, Grid, Pose, Vector, contact_points};
 
-/// Grid spacing for scenes of normal size, metres: half of the play in which objects are still
-/// pushed past each other.
+/// Grid spacing for scenes of normal size, metres: half of the smallest play with which objects are
+/// still pushed past each other.
 const SPACING: f64 = 0.01;
 
-/// Maximum number of places along a side; a larger scene gets coarser ones.
+/// Maximum number of places along a side; a larger scene gets a coarser grid.
 const MOST_PLACES: usize = 256;
 
 /// Solid that moves with a carried object: one of its own, or one of the tool behind it.
@@ -17,7 +17,7 @@ pub(super) struct Solid {
     pub pose: Pose,
     /// Lowest and highest height above the table, metres.
     pub span: [f64; 2],
-    /// Clearance to everything, metres.
+    /// Required clearance to all other bodies, metres.
     pub apart: f64,
 }
 

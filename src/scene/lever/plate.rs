@@ -1,4 +1,4 @@
-//! Plates: objects in space under which a blade can go.
+//! Plates: objects with six degrees of freedom, under which a blade can go.
 
 use serde::{Deserialize, Serialize};
 
@@ -84,8 +84,8 @@ pub(super) fn outline(shape: &Shape) -> Vec<Vector> {
 /// circle by less than 0.1 mm.
 const ROUND: usize = 24;
 
-/// An object in space: a rigid body that consists of a convex plate with a flat underside and the
-/// solids fixed on it.
+/// An object with six degrees of freedom: a rigid body that consists of a convex plate with a flat
+/// underside and the solids fixed on it.
 ///
 /// Its frame lies in the plane of the underside, below the centre of mass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,4 +1,4 @@
-//! Scenes in space, for levering.
+//! 3-D scenes, for levering.
 
 use serde::{Deserialize, Serialize};
 
@@ -79,12 +79,12 @@ impl Region {
     /// Heights between which a region extends, metres: more than any robot reaches.
     const SPAN: [f64; 2] = [-1.0, 10.0];
 
-    /// Returns the space above and below the region, from which bodies in space keep out.
+    /// Returns the space above and below the region, which 3-D bodies must not enter.
     pub fn column(&self) -> Solid {
         Solid::prism(&outline(&self.shape), Self::SPAN, &Pose3::upright(self.pose, 0.0))
     }
 
-    /// Returns `true` if a body in space reaches into the region.
+    /// Returns `true` if a 3-D body reaches into the region.
     pub fn holds_in_space(&self, solids: &[Solid]) -> bool {
         let column = self.column();
         solids.iter().any(|solid| solid.depth(&column) > Self::SLACK)

@@ -1,4 +1,4 @@
-//! The points that objects in space stand on.
+//! The points on which 3-D objects stand.
 
 use crate::geometry::{Pose, Vector};
 use crate::scene::{Feet, Physics, Scene, Support};

@@ -11,7 +11,7 @@ pub enum JointBelief {
     Fixed,
 }
 
-/// Assumptions of a model that replace values of its job, to measure the worth of knowing these
+/// Assumptions of a model that replace values of its job, to measure the benefit of knowing these
 /// values. Empty by default.
 ///
 /// Values are whole numbers, so that the text form is exact.

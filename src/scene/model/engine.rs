@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Engine {
-    /// Planar engine with its own law of support friction: the default ground truth for data and
+    /// 2-D engine with its own law of support friction: the default ground truth for data and
     /// search.
     Planar,
     /// Full 3-D engine: the independent check.
@@ -16,6 +16,6 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// Engines of a verdict, in display order; predictions are compared with the planar engine.
+    /// Engines of a verdict, in display order; predictions are compared with the 2-D engine.
     pub const ALL: [Self; 2] = [Self::Planar, Self::Spatial];
 }

@@ -107,7 +107,7 @@ impl Stride {
 impl Rate {
     /// The default of both engines.
     ///
-    /// A 20 cm push at 0.1 m/s and 1/240 s in the planar engine ends 0.06 mm (cylinders) and 0.2 mm
+    /// A 20 cm push at 0.1 m/s and 1/240 s in the 2-D engine ends 0.06 mm (cylinders) and 0.2 mm
     /// (cuboids, median) from a run with finer steps. The 3-D engine is about 4 mm from another
     /// good engine on boxes.
     pub const DEFAULT: Self = Self(NonZeroU16::MIN.saturating_add(239));
@@ -123,7 +123,7 @@ impl ModelKind {
     pub const NETWORK: Self = Self::Network { weights: None, steps: None, stride: Stride::ONE };
     /// The analytic model.
     pub const PRIOR: Self = Self::Prior { stride: Stride::ONE };
-    /// The planar engine at its default step.
+    /// The 2-D engine at its default step.
     pub const PLANAR: Self = Self::Simulated { engine: Engine::Planar, rate: Rate::DEFAULT };
     /// The 3-D engine at its default step.
     pub const SPATIAL: Self = Self::Simulated { engine: Engine::Spatial, rate: Rate::DEFAULT };

@@ -97,8 +97,8 @@ impl ModelKind {
                 *weights = Some(unquoted(value).ok_or_else(|| SpecError::Value {
                     key: "weights",
                     found: value.to_owned(),
-                    expected: "a file, in double quotes (those in its name doubled) if its name \
-                               holds a comma, a bar or quotes",
+                    expected: "a file; if its name contains a comma, a bar, `>` or quotes, write \
+                               it in double quotes and double the inner quotes",
                 })?);
             }
             (Self::Network { steps, .. }, "steps") => {
@@ -279,7 +279,7 @@ pub(super) fn split(text: &str, separator: char) -> Vec<&str> {
     pieces.map(str::trim).collect()
 }
 
-/// Quotes a text if it could be mistaken for something else.
+/// Quotes a text that is empty, contains a separator or a quote, or begins or ends with a space.
 fn quoted(text: &str) -> String {
     let plain = !text.is_empty() && text.trim() == text && !text.contains([',', '|', '>', '"']);
     if plain { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }

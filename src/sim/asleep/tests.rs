@@ -38,7 +38,7 @@ fn what_nothing_comes_near_stays_to_the_last_bit_and_changes_nothing() {
             assert_eq!(beside_joined.poses[k], apart.objects[k].pose, "{:?}", engine.engine());
         }
         let off = (beside.poses[0].position - alone.poses[0].position).norm();
-        // The planar engine computes from the centre of all objects.
+        // The 2-D engine computes from the centre of all objects.
         assert!(off < 2e-4, "{:?}: {off}", engine.engine());
     }
 }

@@ -1,4 +1,4 @@
-//! Joints in the planar engine, between objects and to the world.
+//! Joints in the 2-D engine, between objects and to the world.
 
 use rapier2d_f64::prelude::{GenericJointBuilder, JointAxesMask, JointAxis, RigidBodyBuilder};
 

@@ -12,26 +12,28 @@ use crate::solve::blackboard::Blackboard;
 use crate::solve::solving::{Batch, Strategy};
 use crate::task::{Job, Task};
 
-/// Number of kinds of plans of one length whose obstructions are examined.
+/// Maximum number of kinds of plans whose obstructions are examined, per number of pushes.
 const KINDS: usize = 16;
 
-/// Number of swept regions of one length to clear, nearest ends first.
+/// Maximum number of swept regions to clear, per number of pushes. Regions whose plans have smaller
+/// final errors come first.
 const REGIONS: usize = 3;
 
-/// Maximum error of an examined plan in tolerances, because refinement can reduce it.
+/// Maximum error of an examined plan in units of the tolerance; above 1 because refinement can
+/// reduce it.
 const NEAR: f64 = 2.0;
 
-/// Number of additional pushes to clear obstructions, because an object in a corner takes two.
+/// Number of pushes beyond one for each obstruction, because an object in a corner takes two.
 const MORE: usize = 1;
 
-/// Search for plans with at least as many pushes as the usual search has reached, and up to
-/// [`MORE`] beyond one for each obstruction.
+/// Search for plans that first clear a swept region. Their number of pushes is limited to the
+/// pushes of the goals' objects, one for each obstruction, and [`MORE`].
 pub(super) struct Clear<'a> {
     /// Task without the possible obstructions.
     alone: Option<&'a (Task, Situation)>,
     /// Search in that task.
     unobstructed: Option<Unobstructed<'a>>,
-    /// Length of the usual search's plans at the last examination.
+    /// Number of pushes of the usual search at the last examination.
     depth: usize,
     waiting: Vec<Clearing>,
     open: VecDeque<Clearing>,
@@ -39,7 +41,7 @@ pub(super) struct Clear<'a> {
     current: Option<(Search<'a>, usize)>,
 }
 
-/// Swept region in which the goals' objects would reach their goals without other objects.
+/// Swept region of a plan that reaches the goals if the other objects are absent.
 struct Clearing {
     region: SweptRegion,
     /// Tool and grip yaw of the plan.
@@ -90,7 +92,7 @@ impl<'a> Clear<'a> {
 }
 
 impl Unobstructed<'_> {
-    /// Searches plans of one more push, and returns the swept regions of obstructed plans.
+    /// Searches for plans with one more push, and returns the swept regions of obstructed plans.
     fn deepen(&mut self, board: &Blackboard) -> Vec<Clearing> {
         let found = self.search.deepen(&mut self.rollouts, board.query.progress);
         let near = |k: &usize| !is_behind(found[*k].score) && found[*k].score <= NEAR;

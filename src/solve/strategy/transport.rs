@@ -16,7 +16,7 @@ use crate::solve::refiner::SCREENED_RADIUS;
 use crate::solve::solving::{Batch, Strategy};
 use crate::task::Plan;
 
-/// Length of the usual search's plans at which the search for legs begins.
+/// Number of pushes of the usual search at which the search for legs begins.
 const FIRST: usize = 3;
 
 /// Number of grips for which legs are searched, fewest pushes first.
@@ -50,7 +50,7 @@ pub struct Approach {
     pub pushes: usize,
 }
 
-/// Strategy that follows legs once the usual search has reached a given length.
+/// Strategy that follows legs once the usual search has reached a given number of pushes.
 #[derive(Default)]
 pub(super) struct Transport {
     depth: usize,

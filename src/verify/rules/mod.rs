@@ -1,8 +1,8 @@
-//! Rule book: violations of the task's rules and of the robot's abilities that a plan shows before
-//! any motion.
+//! Rule book: the rules of the task and the limits of the robot, checked for a plan without
+//! simulation.
 //!
-//! Each rule matches on the step, and all rules apply to every plan. They are independent of the
-//! planner's own rules, which are stricter because the planner keeps safety distances.
+//! Each rule handles every type of step, and all rules apply to every plan. They are independent of
+//! the planner's own rules, which are stricter because the planner keeps safety distances.
 
 mod book;
 mod clearance;

@@ -91,7 +91,7 @@ fn a_simulation_written_as_a_recording_reads_back_and_replays_to_itself() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("two-pushes.recording.json");
     recording.write(&path).expect("a writable folder");
-    let read = Recording::load(&path).expect("what is written can be read");
+    let read = Recording::load(&path).expect("the written file is readable");
     assert_eq!(read.scene, scene);
     assert_eq!(read.tool.parts(), recording.tool.parts());
     assert_eq!(read.frames.len(), recording.frames.len());
@@ -139,7 +139,7 @@ fn frictions_of_pairs_are_read_and_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("r.json");
     read.write(&path).expect("a writable folder");
-    let again = Recording::load(&path).expect("what is written can be read");
+    let again = Recording::load(&path).expect("the written file is readable");
     assert_eq!(again.scene.frictions, read.scene.frictions);
 }
 
@@ -278,7 +278,7 @@ fn everything_wrong_is_said_with_its_place() {
     assert!(found.contains("JSON has no NaN"), "{found}");
 }
 
-/// Replays the recorded pusher in the planar engine.
+/// Replays the recorded pusher in the 2-D engine.
 fn replayed(recording: &Recording) -> Trajectory {
     let motion = recording.replay().motion;
     let job = Job { start: recording.start(), ..Job::stated(&recording.scene, motion) };

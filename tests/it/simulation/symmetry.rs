@@ -41,7 +41,7 @@ fn cases() -> Vec<Vec<Object>> {
     vec![vec![can()], vec![box_], vec![can(), second]]
 }
 
-/// Returns the maximum difference of a symmetric result, metres. In `f32` the planar engine differs
+/// Returns the maximum difference of a symmetric result, metres. In `f32` the 2-D engine differs
 /// by 8 um. The 3-D engine is equally good for cuboids. A cylinder there rests on four points of
 /// its rim, whose positions follow the last bits of its inclination: up to 2.2 mm in these pushes.
 fn tolerance(engine: Engine, objects: &[Object]) -> f64 {

@@ -14,7 +14,7 @@ pub enum ActError {
     /// The task is invalid or cannot be planned.
     #[error(transparent)]
     Solve(#[from] SolveError),
-    /// The network learnt in the run is not accepted by the planner.
+    /// The planner does not accept the network that was trained in the run.
     #[error(transparent)]
     Model(#[from] ModelError),
     /// The world no longer executes motions or returns observations.

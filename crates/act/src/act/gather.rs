@@ -128,7 +128,7 @@ impl Gatherer {
     /// does.
     ///
     /// # Errors
-    /// Same errors as [`Gatherer::motion`].
+    /// Returns the errors of [`Gatherer::motion`].
     pub fn made(
         &mut self,
         motion: &ToolMotion,
@@ -148,7 +148,7 @@ impl Gatherer {
     /// none.
     ///
     /// # Errors
-    /// [`ActError::Objects`] if an observation has another number of objects.
+    /// Returns [`ActError::Objects`] if an observation has another number of objects.
     pub fn motion(
         &mut self,
         motion: &ToolMotion,
@@ -200,7 +200,7 @@ impl Gatherer {
     /// `None`.
     ///
     /// # Errors
-    /// [`ActError::Objects`] if the observation has another number of objects.
+    /// Returns [`ActError::Objects`] if the observation has another number of objects.
     pub fn sights(
         &mut self,
         look: &Look,

@@ -62,7 +62,7 @@ impl<'a> Runner<'a> {
     /// [`Trace::learnt`]. The planner should be [fitted](Planner::fitted) with `given`.
     ///
     /// # Errors
-    /// [`ModelError`] if the network's weights cannot be read.
+    /// Returns [`ModelError`] if the network's weights cannot be read.
     pub fn learning(self, given: Option<TableFit>) -> Result<Self, ModelError> {
         let learner = Learner::new(self.planner.model().spec(), given)?;
         Ok(Self { learner: learner.map(Arc::new), ..self })
@@ -74,8 +74,8 @@ impl<'a> Runner<'a> {
     /// run resumes from there and yields bit-identical results.
     ///
     /// # Errors
-    /// If the run cannot continue or is cancelled by `progress`; the trace holds the finished
-    /// steps.
+    /// Returns an error if the run cannot continue or is cancelled by `progress`; the trace holds
+    /// the finished steps.
     pub fn run(
         &self,
         trace: &mut Trace,

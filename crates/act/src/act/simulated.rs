@@ -169,7 +169,7 @@ fn ends(warning: &Warning) -> bool {
 /// engine is the 2-D one and the noise is [`Truth::NOISE`].
 ///
 /// # Errors
-/// If the task names tools that `library` does not have.
+/// Returns an error if the task names tools that `library` does not have.
 pub fn hidden(task: &Task, library: &ToolLibrary, seed: u64) -> Result<Truth, Faults> {
     let mut truth = Truth::stated(&task.scene, seed);
     // The tool is irrelevant before the first motion.

@@ -54,7 +54,8 @@ pub struct Trace {
     pub prior_numbers: Numbers,
     /// Steps in order.
     pub steps: Vec<Step>,
-    /// Network fit learnt from all steps, including the initial fit; `None` if nothing was learnt.
+    /// Network fit learned from all steps, including the initial fit; `None` if nothing was
+    /// learned.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub learnt: Option<TableFit>,
     /// Reason for the end of the run; `None` while it continues.
@@ -170,7 +171,7 @@ impl Trace {
     /// Reads a trace.
     ///
     /// # Errors
-    /// [`ActError::Trace`] if the file at `path` is missing or damaged.
+    /// Returns [`ActError::Trace`] if the file at `path` is missing or damaged.
     pub fn load(path: &Path) -> Result<Self, ActError> {
         let fault = |why: String| ActError::Trace(format!("{}: {why}", path.display()));
         let text = std::fs::read(path).map_err(|error| fault(error.to_string()))?;
@@ -193,7 +194,7 @@ impl Trace {
     /// Writes the trace atomically.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// Returns an error if it cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), Faults> {
         // Serialising plain data cannot fail.
         let mut text = serde_json::to_vec(self).unwrap_or_default();

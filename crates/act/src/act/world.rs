@@ -13,7 +13,7 @@ pub trait World {
     /// Returns an observation of the table at rest.
     ///
     /// # Errors
-    /// If no observation is available.
+    /// Returns an error if no observation is available.
     fn look(&mut self) -> Result<Look, WorldError>;
 
     /// Changes the tool before its first motion.
@@ -22,7 +22,7 @@ pub trait World {
     /// motion names its tool.
     ///
     /// # Errors
-    /// If the tool was not changed.
+    /// Returns an error if the tool was not changed.
     fn change_tool(&mut self, tool: &Tool) -> Result<(), WorldError> {
         let _ = tool;
         Ok(())
@@ -35,7 +35,7 @@ pub trait World {
     /// lifted. More observations give more information, but one per 10 mm of travel is sufficient.
     ///
     /// # Errors
-    /// If the motion was not carried out as requested.
+    /// Returns an error if the motion was not carried out as requested.
     fn act(&mut self, motion: &ToolMotion) -> Result<Vec<Look>, WorldError>;
 
     /// Returns where and why the last motion ended early.

@@ -6,7 +6,8 @@ use nalgebra::{DMatrix, DVector};
 /// every hypothesis.
 const FREEDOM: f64 = 4.0;
 
-/// Returns the logarithm of Student's density of `off` with scale matrix `spread`.
+/// Returns the logarithm of the density of Student's t distribution at `off` with scale matrix
+/// `spread`.
 ///
 /// A constant that depends only on the dimension is omitted. Returns minus infinity if `spread` is
 /// not positive definite.
@@ -18,9 +19,10 @@ pub(super) fn student(off: &DVector<f64>, spread: DMatrix<f64>) -> f64 {
     -volume - 0.5 * (FREEDOM + n) * (square / FREEDOM).ln_1p()
 }
 
-/// Returns the logarithm of Student's density of one number with the squared scale `variance`.
+/// Returns the logarithm of the density of Student's t distribution of one number with the squared
+/// scale `variance`.
 pub(super) fn student_of_one(off: f64, variance: f64) -> f64 {
-    // Density at zero with four degrees of freedom.
+    // Logarithm of the density at zero, with four degrees of freedom.
     let most = 0.375f64.ln() - 0.5 * variance.ln();
     most - 0.5 * (FREEDOM + 1.0) * (off * off / variance / FREEDOM).ln_1p()
 }

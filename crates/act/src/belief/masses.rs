@@ -2,7 +2,7 @@
 //!
 //! Without force measurements all dynamics scale with mass, so a push identifies only mass ratios
 //! in a group of touching objects. Ranges that are far apart sometimes also identify the scale
-//! because not every ratio fits all of them (thesis, section 8.3).
+//! because not every ratio fits all of them (Tekden 2020, section 8.3).
 //!
 //! Whole assignments of ranges to objects are therefore weighed: the ratio of two masses is known
 //! long before either mass. The mass of an object without contact to others stays undetermined.

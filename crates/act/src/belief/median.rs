@@ -12,7 +12,7 @@ const STEPS: usize = 64;
 ///
 /// # Panics
 ///
-/// If `points` is empty.
+/// Panics if `points` is empty.
 pub(super) fn geometric_median(points: &[(f64, Vector)]) -> Vector {
     let cost = |at: Vector| points.iter().map(|(weight, p)| weight * (p - at).norm()).sum::<f64>();
     let nearest = points.iter().map(|(_, point)| (cost(*point), *point));
@@ -42,7 +42,7 @@ pub(super) fn geometric_median(points: &[(f64, Vector)]) -> Vector {
 ///
 /// # Panics
 ///
-/// If `numbers` is empty.
+/// Panics if `numbers` is empty.
 pub(super) fn weighted_median(mut numbers: Vec<(f64, f64)>) -> f64 {
     numbers.sort_by(|a, b| a.1.total_cmp(&b.1));
     let half = 0.5 * numbers.iter().map(|(weight, _)| weight).sum::<f64>();

@@ -11,7 +11,7 @@
 //! therefore evaluated twice, the second time with the joints that it supports. After a push, whole
 //! assignments of joints are replayed and compared (`group`).
 //!
-//! A joint that stays in place although a rollout continues has reached a limit, which is learnt
+//! A joint that stays in place although a rollout continues has reached a limit, which is learned
 //! (`joint_limits`). Predictions are medians over sampled physics (`prediction`).
 //!
 //! A [`BeliefRegulator`] may correct the filter: a recurrent network on features of every window

@@ -39,7 +39,8 @@ pub enum RegulatorError {
 /// Belief regulator: a recurrent network on the evidence of every pair and the effects of a frozen
 /// propagation network.
 ///
-/// The propagation network shares its weights with the physics predictor (thesis 7.2.3).
+/// The propagation network shares its weights with the physics predictor (Tekden 2020, section
+/// 7.2.3).
 #[derive(Clone)]
 pub struct BeliefRegulator {
     network: Arc<Network>,
@@ -51,7 +52,7 @@ impl BeliefRegulator {
     /// Creates a regulator from a propagation network and regulator weights.
     ///
     /// # Errors
-    /// [`RegulatorError::Features`] if the weights are for other features.
+    /// Returns [`RegulatorError::Features`] if the weights are for other features.
     pub fn new(network: Arc<Network>, weights: &RegulatorWeights) -> Result<Self, RegulatorError> {
         let (found, expected) = (weights.card.features, EVIDENCE + network.effect_width());
         if found != expected {
@@ -63,7 +64,7 @@ impl BeliefRegulator {
     /// Returns the shipped regulator on the shipped propagation network.
     ///
     /// # Errors
-    /// [`RegulatorError`] if the library was built with damaged weights files.
+    /// Returns [`RegulatorError`] if the library was built with damaged weights files.
     pub fn shipped() -> Result<Self, RegulatorError> {
         Self::on_shipped_network(&Self::shipped_weights()?)
     }
@@ -71,7 +72,7 @@ impl BeliefRegulator {
     /// Creates a regulator from these weights and the shipped propagation network.
     ///
     /// # Errors
-    /// [`RegulatorError`] if the weights do not fit the network.
+    /// Returns [`RegulatorError`] if the weights do not fit the network.
     pub fn on_shipped_network(weights: &RegulatorWeights) -> Result<Self, RegulatorError> {
         Self::new(Arc::new(Network::new(EffectModels::weights()?)), weights)
     }
@@ -79,7 +80,7 @@ impl BeliefRegulator {
     /// Returns the shipped weights with their card.
     ///
     /// # Errors
-    /// If the library was built with a damaged weights file.
+    /// Returns an error if the library was built with a damaged weights file.
     pub fn shipped_weights() -> Result<RegulatorWeights, WeightsError> {
         RegulatorWeights::from_bytes(pushplan_models::REGULATOR)
     }

@@ -19,7 +19,7 @@ use super::{
 impl Belief {
     /// Samples physics from the belief.
     ///
-    /// Joint types are drawn by their probabilities, anchors and axes from their Gaussians, and
+    /// Joint types are drawn with their probabilities, anchors and axes from their Gaussians, and
     /// masses, frictions and supports from the particles. Anchors and axes are at the poses of
     /// [`Self::situation`]. Joints close no loop; the more probable ones are kept, as in
     /// [`Self::map`].

@@ -88,7 +88,6 @@ impl Instant {
 
     /// Returns the number of observed joint coordinates. The last one, a relative heading, is
     /// missing if neither heading was observed.
-    /// neither heading was.
     fn rows(&self) -> usize {
         if self.headings == [false; 2] { 2 } else { 3 }
     }

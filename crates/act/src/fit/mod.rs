@@ -5,7 +5,6 @@
 //! compared with the recordings. A noise model turns the errors into a posterior. A linear head on
 //! the network's last hidden row can be fitted to the remaining error. This module draws nothing
 //! and reads no files.
-//! row can learn. It draws nothing and reads no files.
 
 mod grid;
 mod head;

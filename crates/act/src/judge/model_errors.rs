@@ -170,7 +170,7 @@ fn model_errors(model: &dyn EffectModel, trials: &[Trial], progress: &dyn Progre
 pub fn own_spread(trials: &[Trial], progress: &dyn Progress) -> Option<f64> {
     let planar = Simulated::new(Simulator::planar());
     let shifted = Assuming::new(planar.clone(), SHIFTED_START);
-    progress.stage("own spread");
+    progress.stage("spread of the 2-D engine");
     let count = Count::new(progress, 0, trials.len());
     let apart: Vec<Vec<f64>> = trials
         .par_iter()

@@ -2,7 +2,8 @@
 //!
 //! The cell is a gated recurrent unit per pair of objects (Cho et al., EMNLP 2014). Its input is
 //! evidence about the pair and the effects of the frozen propagation network. Pairs that share an
-//! object exchange messages (Tekden et al., ICRA 2020, section III-C; thesis 7.2.3 and 8.1.1).
+//! object exchange messages (Tekden et al., ICRA 2020, section III-C; Tekden 2020, sections 7.2.3
+//! and 8.1.1).
 //!
 //! Each pair p has features x_p `[F]`, a hidden state h_p `[H]` and a message m_p. The message is
 //! the sum of h_q over pairs q != p, counted once for each object shared with p:

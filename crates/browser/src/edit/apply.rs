@@ -30,7 +30,8 @@ pub enum Step {
 
 /// Returns the text after all `edits`, one after the other; `file` names it in faults.
 ///
-/// # Errors If the text is not YAML or the path of an edit does not exist.
+/// # Errors
+/// Returns an error if the text is not YAML or the path of an edit does not exist.
 pub fn edit(text: &str, file: &str, edits: &[Edit]) -> Result<String, Faults> {
     let mut text = text.to_owned();
     for one in edits {
@@ -41,7 +42,8 @@ pub fn edit(text: &str, file: &str, edits: &[Edit]) -> Result<String, Faults> {
 
 /// Returns the values of a YAML text.
 ///
-/// # Errors If the text is not YAML.
+/// # Errors
+/// Returns an error if the text is not YAML.
 pub fn values(text: &str, file: &str) -> Result<Json, Faults> {
     let root = Node::parse(Source::yaml(file, text))?;
     serde_json::to_value(tree::of(&root)).map_err(|error| unwritable(file, &error))

@@ -60,8 +60,8 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
             Motion::Free => found.push(index),
             motion if motion.is_planar() => {
                 let note = format!(
-                    "`{}` slides and turns on the table: it is imported as a free object, without \
-                     the limits of its joints",
+                    "`{}` slides and rotates on the table: it is imported as a free object, \
+                     without the limits of its joints",
                     body.name
                 );
                 ledger.note(body.place, note);
@@ -74,8 +74,8 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
             motion => {
                 let how = held_by(motion);
                 let message = format!("`{}` is attached to the world by {how}", body.name);
-                let advice = "objects must be free (--free NAME, a <freejoint/>), turn about the \
-                              vertical or slide along the table; select bodies with --body";
+                let advice = "objects must be free (--free NAME, a <freejoint/>), rotate about \
+                              the vertical or slide along the table; select bodies with --body";
                 ledger.fault(body.place, message, advice);
             }
         }

@@ -42,7 +42,7 @@ pub(super) fn joints(
             None => {
                 let message =
                     format!("`{name}` is attached to another body by {}", held_by(motion));
-                let advice = "joints between objects must be fixed, turn about the vertical, or \
+                let advice = "joints between objects must be fixed, rotate about the vertical, or \
                               slide along the table";
                 ledger.fault(*place, message, advice);
             }

@@ -35,7 +35,7 @@ pub struct ImportedScene {
 /// Converts a model to objects and obstacles on a table.
 ///
 /// # Errors
-/// Everything that pushplan cannot express, each with its place in `file`.
+/// Returns a fault for every element that pushplan cannot express, with its place in `file`.
 pub fn objects(
     model: &Model,
     file: &str,

@@ -20,7 +20,7 @@ const LEVEL: f64 = 1e-3;
 /// of the body; its mass and joints have no effect.
 ///
 /// # Errors
-/// Everything that pushplan cannot express, each with its place in `file`.
+/// Returns a fault for every element that pushplan cannot express, with its place in `file`.
 pub fn tool(model: &Model, file: &str, wanted: &Wanted) -> Result<Imported<Tool>, Faults> {
     let mut ledger = Ledger::new(file, &model.files);
     let body = chosen(model, wanted, &mut ledger);

@@ -16,7 +16,7 @@ const MOST: usize = 1_000_000;
 /// Reads the triangles of a mesh file.
 ///
 /// # Errors
-/// The file cannot be read, has another format, or has too many triangles.
+/// Returns an error if the file cannot be read, has another format, or has too many triangles.
 pub fn load(path: &Path) -> Result<Triangles, Refused> {
     let refused = |message: String, advice: &str| Refused { message, advice: advice.to_owned() };
     let bytes = Files::bytes(path)?;

@@ -34,7 +34,7 @@ pub enum Geometry {
 /// Reads the `origin` of an element; returns the default if there is none.
 ///
 /// # Errors
-/// Invalid numbers, or a wrong count of numbers.
+/// Returns an error for invalid numbers, or for a wrong count of numbers.
 pub fn origin<'a>(node: Node<'a, 'a>) -> Result<Origin, Flaw> {
     let Some(origin) = element(node, "origin") else { return Ok(Origin::default()) };
     let three = |name: &str| origin.attribute_node(name).map_or(Ok([0.0; 3]), numbers::<3>);
@@ -44,7 +44,7 @@ pub fn origin<'a>(node: Node<'a, 'a>) -> Result<Origin, Flaw> {
 /// Reads the shape of a collision element.
 ///
 /// # Errors
-/// The shape or one of its sizes is missing.
+/// Returns an error if the shape or one of its sizes is missing.
 pub fn geometry<'a>(collision: Node<'a, 'a>) -> Result<Geometry, Flaw> {
     let shape = element(collision, "geometry").and_then(|geometry| elements(geometry).next());
     let missing = || Flaw::of(collision, "this collision has no geometry", "add <geometry>");
@@ -85,7 +85,7 @@ pub fn geometry<'a>(collision: Node<'a, 'a>) -> Result<Geometry, Flaw> {
 /// Reads the axis of a joint in its own frame, a unit vector; the default is x.
 ///
 /// # Errors
-/// The axis has length zero.
+/// Returns an error if the axis has length zero.
 pub fn axis<'a>(joint: Node<'a, 'a>) -> Result<Vector3, Flaw> {
     let stated = element(joint, "axis").and_then(|axis| axis.attribute_node("xyz"));
     let axis = Vector3::from(stated.map_or(Ok([1.0, 0.0, 0.0]), numbers::<3>)?);
@@ -97,7 +97,7 @@ pub fn axis<'a>(joint: Node<'a, 'a>) -> Result<Vector3, Flaw> {
 /// Reads a number of the `limit` of a joint, if stated.
 ///
 /// # Errors
-/// The value is not a single number.
+/// Returns an error if the value is not a single number.
 pub fn limit<'a>(joint: Node<'a, 'a>, name: &str) -> Result<Option<f64>, Flaw> {
     let stated = element(joint, "limit").and_then(|limit| limit.attribute_node(name));
     stated.map(number).transpose()

@@ -37,7 +37,7 @@ pub fn element<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
 /// Reads all numbers of an attribute.
 ///
 /// # Errors
-/// A word is not a finite number.
+/// Returns an error if a word is not a finite number.
 pub fn list(attribute: Attribute) -> Result<Vec<f64>, Flaw> {
     let number = |word: &str| match word.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
@@ -53,7 +53,7 @@ pub fn list(attribute: Attribute) -> Result<Vec<f64>, Flaw> {
 /// Reads exactly `N` numbers of an attribute.
 ///
 /// # Errors
-/// A different count of numbers, and the errors of [`list`].
+/// Returns an error for a different count of numbers, and the errors of [`list`].
 pub fn numbers<const N: usize>(attribute: Attribute) -> Result<[f64; N], Flaw> {
     let found = list(attribute)?;
     let count = found.len();
@@ -67,7 +67,7 @@ pub fn numbers<const N: usize>(attribute: Attribute) -> Result<[f64; N], Flaw> {
 /// Reads one number of an attribute.
 ///
 /// # Errors
-/// The errors of [`numbers`].
+/// Returns the errors of [`numbers`].
 pub fn number(attribute: Attribute) -> Result<f64, Flaw> {
     numbers::<1>(attribute).map(|[number]| number)
 }

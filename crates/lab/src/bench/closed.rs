@@ -54,7 +54,8 @@ impl RandomSuite {
     /// Runs task `index` with everything hidden in a `world` of this kind in a loop with
     /// `settings`, and plans it once.
     ///
-    /// # Errors If the task cannot be made or the planner refuses it.
+    /// # Errors
+    /// Returns an error if the task cannot be made or the planner refuses it.
     pub fn run_hidden(
         &self,
         planner: &Planner,

@@ -97,8 +97,7 @@ fn cases(
     match (objects, jointed) {
         (1, _) => Suite::draw(SuiteKind::Single, library, seed, count).cases,
         (2..=TOUCHING, false) => {
-            // Touching cases of one pass over the tools have two objects, cases of the next pass
-            // three.
+            // Touching cases have two objects in one pass over the tools, and three in the next.
             let enough = 2 * (library.len() + count);
             let all = Suite::draw(SuiteKind::Touching, library, seed, enough).cases.into_iter();
             all.filter(|case| case.scene.objects.len() == objects).take(count).collect()

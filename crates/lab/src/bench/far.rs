@@ -49,7 +49,8 @@ pub struct FarCost {
 /// Times the pushes of `suite` by every model on one thread, with increasing numbers of far
 /// objects. Each model is paired with its number of jobs per call.
 ///
-/// # Errors If the thread cannot be started.
+/// # Errors
+/// Returns an error if the thread cannot be started.
 pub fn far_costs(
     models: &[(&dyn EffectModel, usize)],
     suite: &Suite,

@@ -92,7 +92,8 @@ impl Tried {
 /// that it does not refine. `library` holds at least one tool. The result has the same bits for any
 /// number of threads.
 ///
-/// # Errors Returns the error of a planner that refuses the task.
+/// # Errors
+/// Returns the error of a planner that refuses the task.
 pub fn refine_task(
     [without, with]: [&Planner; 2],
     library: &ToolLibrary,

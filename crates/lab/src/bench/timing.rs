@@ -51,10 +51,11 @@ pub struct SearchCost {
 /// Times pushes of `suite` on one thread: `model` with `batch` jobs per call on the same scene and
 /// one per call, then both engines.
 ///
-/// The jobs of a batch are copies of a push, which no model can detect. Their time is the cost of a
-/// candidate in a search.
+/// The jobs of a batch are copies of one push. No model takes advantage of that, so their time is
+/// the cost of a candidate in a search.
 ///
-/// # Errors If the thread cannot be started.
+/// # Errors
+/// Returns an error if the thread cannot be started.
 pub fn push_costs(
     model: &dyn EffectModel,
     suite: &Suite,
@@ -116,7 +117,8 @@ pub(super) fn batches(cases: &[Case], batch: usize) -> Vec<(&Scene, Vec<Job>)> {
 /// Times the planner's search of at most `candidates` one-push candidates for `task` with each
 /// model, one after another on the current rayon pool.
 ///
-/// # Errors Returns the error of a planner that refuses the task.
+/// # Errors
+/// Returns the error of a planner that refuses the task.
 pub fn search_costs(
     models: &[Arc<dyn EffectModel>],
     task: &Task,

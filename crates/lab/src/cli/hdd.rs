@@ -34,7 +34,7 @@ pub struct HddArgs {
     /// Seed of the drives
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// Number of remembered lever-ups, for models without physics
+    /// Number of remembered lever-ups of the models without physics
     #[arg(long, value_name = "N", default_value_t = 500,
           value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     known: u64,
@@ -76,7 +76,7 @@ pub fn run(args: &HddArgs, session: &Session) -> Result<(), CliError> {
     args.form.show(session, &hdd_document(&report))
 }
 
-/// Returns the models, from the simplest on.
+/// Returns the models, simplest first.
 fn models(known: &LeverDataset) -> Vec<Box<dyn LeverModel>> {
     let known = known.episodes();
     vec![

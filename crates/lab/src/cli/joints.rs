@@ -41,7 +41,7 @@ pub struct JointsArgs {
     /// Types of joints between near neighbours
     #[arg(long, value_parser = possible_values(&JOINTS[1..]), default_value = "mixed")]
     joints: JointRule,
-    /// Quality of the observations; several are possible [default: all]
+    /// Qualities of the observations, one or more [default: all]
     #[arg(long, num_args = 1.., value_parser = possible_values(&SIGHTINGS), value_name = "HOW")]
     seen: Vec<Sighting>,
     /// Number of trajectories of each set

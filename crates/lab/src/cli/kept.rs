@@ -47,7 +47,8 @@ pub fn cases_of<C: DeserializeOwned>(manifest: &RunManifest) -> Vec<C> {
 
 /// Refuses runs of different tasks, because methods are compared on equal tasks only.
 ///
-/// # Errors Returns the difference.
+/// # Errors
+/// Returns the difference.
 pub fn same_tasks<R>(runs: &[Run<R>]) -> Result<(), CliError> {
     let tasks = |run: &RunManifest| {
         let decides =

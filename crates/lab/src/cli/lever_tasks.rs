@@ -1,4 +1,4 @@
-//! `pushplan-lab lever-tasks`: generated lever tasks.
+//! `pushplan-lab lever-tasks`: generated levering tasks.
 
 use std::path::PathBuf;
 
@@ -22,7 +22,7 @@ use crate::bench::{LeverRecord, LeverSuite};
 use crate::cli::tasks::save_tasks;
 use crate::report::lever_tasks_document;
 
-/// Solve generated levering tasks: take the board out of a drive
+/// Solve generated levering tasks: lift a circuit board out of a hard drive
 #[derive(Args, Debug)]
 #[command(after_help = format!("Examples:
   pushplan-lab lever-tasks --count 50

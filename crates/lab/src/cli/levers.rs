@@ -34,7 +34,7 @@ pub struct LeversArgs {
     /// Seed of the lever-ups
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// Number of remembered lever-ups, for models without physics
+    /// Number of remembered lever-ups of the models without physics
     #[arg(long, value_name = "N", default_value_t = 1600,
           value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     known: u64,
@@ -47,11 +47,11 @@ pub struct LeversArgs {
     /// Restrict to plates with this many corners
     #[arg(long, value_name = "N")]
     corners: Option<usize>,
-    /// Split as in the thesis: test the lever-ups of --seed that `train memory --random-split`
+    /// Split as in Tekden (2020): test the lever-ups of --seed that `train memory --random-split`
     /// leaves out, and remember its training lever-ups
     #[arg(long, conflicts_with_all = ["known", "known_seed"])]
     random_split: bool,
-    /// Measure only up to the first slip, as in the thesis
+    /// Measure only up to the first slip, as in Tekden (2020)
     #[arg(long)]
     cut: bool,
     #[command(flatten)]
@@ -115,7 +115,7 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
     args.form.show(session, &document)
 }
 
-/// Returns the models, from the simplest on.
+/// Returns the models, simplest first.
 fn models(known: &[LeverEpisode]) -> Vec<Box<dyn LeverModel>> {
     let like = |neighbour| LeverBaseline::like(neighbour, known, 1);
     let nearest = |features| like(Neighbour::Nearest(features));
@@ -148,7 +148,8 @@ pub(super) struct Named {
 impl Named {
     /// Loads weights.
     ///
-    /// # Errors [`CliError::File`] if the weights cannot be used.
+    /// # Errors
+    /// Returns [`CliError::File`] if the weights cannot be used.
     pub fn load(path: &Path, among_blocks: bool) -> Result<Self, CliError> {
         let network = load_lever(path).map_err(|error| CliError::File(error.to_string()))?;
         Ok(Self { network, path: path.display().to_string(), among_blocks })

@@ -39,10 +39,10 @@ pub struct MassesArgs {
     /// Setups of nine cylinders with fixed positions and pushes; only the masses vary
     #[arg(long, num_args = 1.., value_parser = possible_values(&CONTROLLED), value_name = "SETUP")]
     controlled: Vec<Controlled>,
-    /// Quality of the observations; several are possible [default: exact, fine and coarse]
+    /// Qualities of the observations, one or more [default: exact, fine and coarse]
     #[arg(long, num_args = 1.., value_parser = possible_values(&SIGHTINGS), value_name = "HOW")]
     seen: Vec<Sighting>,
-    /// Treat friction coefficients of the objects and the table as unknown, too
+    /// Also treat friction coefficients of the objects and the table as unknown
     #[arg(long)]
     frictions: bool,
     /// Number of trajectories of each set

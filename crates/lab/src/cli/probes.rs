@@ -1,4 +1,5 @@
-//! `pushplan-lab probes`: information gained by probes, by the rule of their choice.
+//! `pushplan-lab probes`: information gained by exploratory pushes, for each rule that chooses
+//! them.
 
 use clap::Args;
 use pushplan::internals::scene::ModelSpec;
@@ -31,7 +32,7 @@ Examples:
 
 {}", keep::HELP))]
 pub struct ProbesArgs {
-    /// Rules for choosing pushes; several are possible [default: all but task, which needs a task]
+    /// Rules for choosing pushes, one or more [default: all but task, which needs a task]
     #[arg(long, num_args = 1.., value_parser = possible_values(&PROBES), value_name = "RULE")]
     probe_rule: Vec<ProbeRule>,
     /// Number of objects in a scene

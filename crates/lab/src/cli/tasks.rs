@@ -44,7 +44,8 @@ impl TasksArgs {
     /// Returns the settings that determine a run of the suite `name` on the first `count` of these
     /// tasks.
     ///
-    /// # Errors If weights cannot be read.
+    /// # Errors
+    /// Returns an error if weights cannot be read.
     pub fn manifest(
         &self,
         (name, count): (&str, usize),
@@ -68,7 +69,8 @@ impl TasksArgs {
 
 /// Writes the tasks of a run as files.
 ///
-/// # Errors If a task cannot be made or written, or on an interruption.
+/// # Errors
+/// Returns an error if a task cannot be made or written, or on an interruption.
 pub fn save_tasks(
     folder: &Path,
     session: &Session,

@@ -24,7 +24,8 @@ const AT_ONCE: usize = 64;
 /// network itself, and resumes from its own checkpoint there. Returns `None` if `progress`
 /// cancelled the training.
 ///
-/// # Errors Returns a [`TrainError`]; files saved before remain.
+/// # Errors
+/// Returns a [`TrainError`]; files saved before remain.
 pub(super) fn code(
     settings: &ImageSettings,
     (examples, held_out): (&[Seen], &[Seen]),

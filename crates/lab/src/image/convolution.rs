@@ -173,7 +173,8 @@ pub fn fresh_bound(name: &str, shape: &[usize]) -> f32 {
 
 /// Computes the code of an image, row by row, before the last tanh.
 ///
-/// # Panics If a parameter is missing.
+/// # Panics
+/// Panics if a parameter is missing.
 pub fn image_code(sizes: &ImageSizes, parameters: &Parameters, image: &[f32]) -> Vec<f32> {
     let get = |name: &str| &parameters.values[name];
     let layer = |x: &[f32], columns: usize, weights: &[f32], bias: &[f32]| {

@@ -27,8 +27,8 @@ const HIGH: f64 = 0.05;
 /// Returns the image of a job's plate as seen in `view`, row by row inwards from the levered edge,
 /// columns from the right.
 ///
-/// A pixel of a mask is the covered share of it, a pixel of a depth image its height above the
-/// table. The image of a shape context is the context itself, rings by wedges.
+/// A pixel of a mask is its covered share, a pixel of a depth image the height above the table. The
+/// image of a shape context is the context itself, rings by wedges.
 pub fn lever_image(features: ImageFeatures, job: &LeverJob, view: &LeverView) -> Vec<f32> {
     let plate = &job.scene.plates[job.lever.plate];
     match features {

@@ -22,7 +22,9 @@ pub struct Autoencoder {
 impl Autoencoder {
     /// Creates an autoencoder with the given parameters.
     ///
-    /// # Errors If a parameter is missing or has another shape than in [`autoencoder_layout`].
+    /// # Errors
+    /// Returns an error if a parameter is missing or has another shape than in
+    /// [`autoencoder_layout`].
     pub fn new(sizes: &ImageSizes, parameters: &Parameters) -> Result<Self> {
         Ok(Self { sizes: *sizes, variables: variables(autoencoder_layout(sizes), parameters)? })
     }
@@ -35,7 +37,8 @@ impl Autoencoder {
     /// Reconstructs images [B, rows, columns, 1] from their codes, as logits of the covered share
     /// of every pixel [B, rows x columns].
     ///
-    /// # Errors Returns errors of candle.
+    /// # Errors
+    /// Returns errors of candle.
     pub fn forward(&self, images: &Tensor) -> Result<Tensor> {
         let get = |name: &str| self.variables[name].as_tensor();
         image_codes(&self.sizes, get, images)?
@@ -85,7 +88,8 @@ impl ImageGraph {
     /// Creates networks of these sizes with the given parameters. The encoder is trained too unless
     /// `sees_as_it_is`.
     ///
-    /// # Errors If a parameter is missing or has another shape than in its layout.
+    /// # Errors
+    /// Returns an error if a parameter is missing or has another shape than in its layout.
     pub fn new(
         sizes: (&LeverSizes, &ImageSizes),
         parameters: &Parameters,
@@ -120,7 +124,8 @@ impl ImageGraph {
 
     /// Returns the contribution of images [B, rows, columns, 1] to the gates: [B, 4 H].
     ///
-    /// # Errors Returns errors of candle.
+    /// # Errors
+    /// Returns errors of candle.
     pub fn contribution(&self, images: &Tensor) -> Result<Tensor> {
         image_codes(&self.sizes, |name| &self.values[name], images)?
             .matmul(&self.values["gates.image"])

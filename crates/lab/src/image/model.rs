@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::{ImageFeatures, ImageSizes, ImageWeights, image_code, image_inputs};
 
-/// A network, alone or as a correction of the prior.
+/// A network, alone or as a correction of the analytic model.
 #[derive(Clone, Debug)]
 pub struct ImageNetwork {
     features: ImageFeatures,
@@ -25,7 +25,8 @@ pub struct ImageNetwork {
 impl ImageNetwork {
     /// Creates the model of these weights.
     ///
-    /// # Errors [`LeverNetworkError::Inputs`] if their widths do not fit the inputs that the card
+    /// # Errors
+    /// Returns [`LeverNetworkError::Inputs`] if their widths do not fit the inputs that the card
     /// states.
     pub fn new(weights: &ImageWeights) -> Result<Self, LeverNetworkError> {
         let card = &weights.card;

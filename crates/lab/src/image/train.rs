@@ -39,7 +39,8 @@ impl ImageSettings {
 /// Trains in `folder`, see [`Trainer::run`]. For [`ImageFeatures::ImageCode`], an autoencoder is
 /// trained first, in as many steps.
 ///
-/// # Errors Returns a [`TrainError`]; files saved before remain.
+/// # Errors
+/// Returns a [`TrainError`]; files saved before remain.
 pub fn train_image(
     settings: &ImageSettings,
     episodes: &[LeverEpisode],

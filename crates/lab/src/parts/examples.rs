@@ -11,19 +11,20 @@ use rayon::prelude::*;
 
 use super::{LeverCourse, LeverParts, PartGraphs, PartState, Walk, Walker};
 
-/// Number of steps at rest that are also learned from.
+/// Number of steps at rest that also become examples.
 const AT_REST: usize = 3;
 
-/// Smallest and largest perturbation of a true state: metres of the centre of mass.
+/// Range of the perturbation of a true state: displacement of the centre of mass, metres.
 const NOISE: [f64; 2] = [2e-5, 1e-3];
 
-/// Rotation of a perturbation, radians per metre.
+/// Rotation of a perturbation per displacement, radians per metre.
 const TURNS: f64 = 25.0;
 
-/// Error above which a rollout is reset to the ground truth, metres, because no step leads back.
+/// Error above which a rollout is reset to the ground truth, metres, because a single step cannot
+/// correct it.
 const LOST: f64 = 8e-3;
 
-/// Number of rollouts that share the products of a step.
+/// Number of rollouts that share the matrix products of a step.
 const AT_ONCE: usize = 32;
 
 /// A lever-up as simulated by the engine.
@@ -50,8 +51,8 @@ pub(super) struct Drawn {
 }
 
 impl Examples {
-    /// Returns the steps of all `episodes` with cuboid bodies that came to rest without a jam. The
-    /// episodes are simulated again.
+    /// Returns the steps of those `episodes` that have only cuboid bodies and came to rest without
+    /// a jam. These episodes are simulated again.
     pub fn new(episodes: &[LeverEpisode], prior: bool) -> Self {
         let sound: Vec<&LeverEpisode> = episodes.iter().filter(|e| e.is_sound()).collect();
         let tracks: Vec<Track> =
@@ -139,7 +140,7 @@ fn roll(tracks: &[Track], forward: &Forward) -> Vec<Vec<PartState>> {
             }
         }
     }
-    // A rollout that rests too early continues with the ground truth.
+    // If a rollout comes to rest too early, the ground truth replaces its missing states.
     for (states, track) in states.iter_mut().zip(tracks) {
         while states.len() < track.truth.len() {
             states.push(exactly(&track.truth, states.len()));

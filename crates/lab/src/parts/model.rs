@@ -11,8 +11,8 @@ use super::card::PartsWeights;
 use super::course::LeverCourse;
 use super::walk::{Walk, Walker};
 
-/// Number of lever-ups that share the products of a step. Fixed, so that two cores share a search
-/// evenly.
+/// Number of lever-ups that share the matrix products of a step. Fixed, so that two cores share a
+/// search evenly.
 const AT_ONCE: usize = 32;
 
 /// Model of cuboid bodies with trained weights.

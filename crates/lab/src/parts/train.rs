@@ -23,7 +23,8 @@ const NEAR: f64 = 0.02;
 
 /// Trains in `folder`, see [`Trainer::run`].
 ///
-/// # Errors Returns a [`TrainError`]; files saved before remain.
+/// # Errors
+/// Returns a [`TrainError`]; files saved before remain.
 pub fn train_parts(
     settings: &PartsSettings,
     episodes: &[LeverEpisode],

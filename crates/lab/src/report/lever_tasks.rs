@@ -1,4 +1,4 @@
-//! Generated lever tasks: success, robustness and cost.
+//! Generated levering tasks: success, robustness and cost.
 
 use pushplan::internals::solve::PlanStatus;
 use pushplan_act::judge::{mean, percentile};

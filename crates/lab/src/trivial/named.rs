@@ -19,7 +19,8 @@ impl Projection {
 
 /// Parses the name of a model: a library model with its settings, or a trivial one.
 ///
-/// # Errors If the text names no model.
+/// # Errors
+/// Returns an error if the text names no model.
 pub fn spec(text: &str) -> Result<ModelSpec, SpecError> {
     let trivial = [Projection::KIND, Follow::KIND].map(ModelSpec::of);
     match trivial.into_iter().find(|spec| spec.to_string() == text.trim()) {
@@ -30,7 +31,8 @@ pub fn spec(text: &str) -> Result<ModelSpec, SpecError> {
 
 /// Builds the model of `spec`.
 ///
-/// # Errors [`ModelError`] if it needs weights that cannot be used.
+/// # Errors
+/// Returns [`ModelError`] if it needs weights that cannot be used.
 pub fn load(spec: &ModelSpec) -> Result<Fallback, ModelError> {
     let part = spec.first();
     let model: Arc<dyn EffectModel> = match &part.kind {

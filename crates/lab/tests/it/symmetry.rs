@@ -13,7 +13,8 @@ use pushplan::{
 };
 use pushplan_lab::bench::{Case, Suite, SuiteKind, crowd_cases};
 
-/// Tolerance, metres. Rounding reaches a hundredth of it in pushes among cuboids that touch.
+/// Tolerance, metres. The effect of rounding is up to a hundredth of it, in pushes of touching
+/// cuboids.
 const SAME: f64 = 1e-8;
 
 /// Returns held-out pushes of single and touching objects, and crowds with joints.

@@ -76,7 +76,7 @@ impl Constraints {
     /// Checks that `preset` can satisfy the constraints.
     ///
     /// # Errors
-    /// [`DatasetError::Constraint`] for constraints on scenes that are no crowds, and for a
+    /// Returns [`DatasetError::Constraint`] for constraints on scenes that are no crowds, and for a
     /// number of objects or a speed that the family does not cover.
     pub(super) fn check(&self, preset: Preset) -> Result<(), DatasetError> {
         let refused = |why: String| Err(DatasetError::Constraint(why));

@@ -1,7 +1,7 @@
 //! Controlled set-ups in which only masses vary between trajectories and every cylinder is pushed
-//! by another one, as in section 8.3 of the thesis.
+//! by another one, as in section 8.3 of Tekden (2020).
 //!
-//! The thesis shows its set-ups in a picture without sizes; these follow its description. A
+//! The source shows its set-ups in a picture without sizes; these follow its description. A
 //! cylinder pushed against another one continues to push it if it is the heavier one, otherwise it
 //! slips off to either side.
 
@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 
 use super::constraints::TEST_SPEED;
 
-/// Arrangement of nine cylinders in groups of three, as in the thesis; each group gets one stroke.
+/// Arrangement of nine cylinders in groups of three, as in Tekden (2020); each group gets one
+/// stroke.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Controlled {

@@ -1,7 +1,8 @@
 //! Blocks of the curriculum.
 //!
 //! Distributions change every 25 episodes, so that rare dynamics (for example a table full of
-//! sliding joints) occur in concentration and can be learnt (Tekden et al. 2021, arXiv 2102.02100).
+//! sliding joints) occur in concentration and can be learned (Tekden et al. 2021, arXiv
+//! 2102.02100).
 
 use pushplan::internals::seeded::generator;
 use rand::Rng;

@@ -85,7 +85,8 @@ pub(super) fn grid(rng: &mut Pcg64, ranges: &Ranges, block: &Block) -> Scene {
         }
         let aim = if jittered { uniform(rng, -0.15, 0.15) } else { 0.0 };
         let out = Pose::new(0.0, 0.0, aim).vector(cell.normalize());
-        // The object starts clear of all others and moves straight in to the first contact.
+        // The object starts beyond all others and moves straight towards them until the first
+        // contact.
         let far = Pose { position: out * (cell.norm() + 1.0), heading: turn };
         let travels = objects.iter().filter_map(|object| {
             let still = (&object.shape.footprint(), &object.pose);

@@ -32,7 +32,8 @@ impl Episode {
     /// seed, preset, constraints and truth.
     ///
     /// # Errors
-    /// [`DatasetError::Player`] if the ground truth is from MuJoCo and MuJoCo is unavailable.
+    /// Returns [`DatasetError::Player`] if the ground truth is from MuJoCo and MuJoCo is
+    /// unavailable.
     pub fn draw(config: &DatasetConfig, index: u64) -> Result<Self, DatasetError> {
         let mut rng = generator(config.seed, index);
         if config.preset.is_crowd() {

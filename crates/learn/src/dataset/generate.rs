@@ -19,8 +19,8 @@ use super::set::{Sampler, Set, draw};
 /// episodes in the folder and their size in bytes.
 ///
 /// # Errors
-/// If the configuration requests no data, the folder holds other settings or is locked, a file
-/// cannot be written, or `progress` cancels. Finished episodes are always kept.
+/// Returns an error if the configuration requests no data, the folder holds other settings or is
+/// locked, a file cannot be written, or `progress` cancels. Finished episodes are always kept.
 pub fn generate<S: Sampler>(
     config: &S,
     shard: Shard,
@@ -50,7 +50,7 @@ pub fn generate<S: Sampler>(
 /// The result is bit-identical to an unsharded run. Returns the number of episodes and their seed.
 ///
 /// # Errors
-/// Errors of [`merge_runs`], and an error for folders without episodes.
+/// Returns errors of [`merge_runs`], and an error for folders without episodes.
 pub fn merge_data(out: &Path, shards: &[PathBuf]) -> Result<(usize, u64), DatasetError> {
     for dir in shards {
         let manifest = RunManifest::expect(dir)?;
@@ -67,7 +67,8 @@ impl<S: Sampler> Set<S> {
     /// Reads a finished data set from a folder.
     ///
     /// # Errors
-    /// If the folder holds no data set, the data set is unfinished, or a file is damaged.
+    /// Returns an error if the folder holds no data set, the data set is unfinished, or a file is
+    /// damaged.
     pub fn open(dir: &Path) -> Result<Self, DatasetError> {
         let manifest = RunManifest::expect(dir)?;
         let config = S::of(&manifest, dir)?;

@@ -1,4 +1,4 @@
-//! Cylinders of three mass ranges pushed by the hand, as data for estimating masses (thesis,
+//! Cylinders of three mass ranges pushed by the hand, as data for estimating masses (Tekden 2020,
 //! section 8.3).
 
 use pushplan::internals::seeded::generator;

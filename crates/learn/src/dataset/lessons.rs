@@ -28,8 +28,8 @@ const VERSION: u64 = 2;
 /// of the propagation network's weights.
 ///
 /// # Errors
-/// If `count` is zero, the folder holds other lessons or is locked, a file cannot be written, or
-/// `progress` cancels. Finished lessons are always kept.
+/// Returns an error if `count` is zero, the folder holds other lessons or is locked, a file cannot
+/// be written, or `progress` cancels. Finished lessons are always kept.
 pub fn lessons(
     (seed, count): (u64, u64),
     (network, digest): (&Arc<Network>, String),

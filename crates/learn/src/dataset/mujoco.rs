@@ -62,7 +62,7 @@ thread_local! {
 /// Returns the version of the installed MuJoCo.
 ///
 /// # Errors
-/// [`DatasetError::Player`] if MuJoCo is not installed.
+/// Returns [`DatasetError::Player`] if MuJoCo is not installed.
 pub(super) fn version() -> Result<&'static str, DatasetError> {
     static VERSION: OnceLock<String> = OnceLock::new();
     if let Some(version) = VERSION.get() {
@@ -78,7 +78,7 @@ pub(super) fn version() -> Result<&'static str, DatasetError> {
 /// to rest.
 ///
 /// # Errors
-/// [`DatasetError::Player`] if MuJoCo is not installed or its process ends.
+/// Returns [`DatasetError::Player`] if MuJoCo is not installed or its process ends.
 pub(super) fn play(scene: &Scene, motion: &ToolMotion) -> Result<Option<Vec<Frame>>, DatasetError> {
     let mjcf = motion_mjcf("episode", scene, motion)
         .map_err(|error| DatasetError::Player(error.to_string()))?;

@@ -26,8 +26,8 @@ pub trait Sampler: Clone + Sync {
     /// Checks that the configuration requests data and can be satisfied.
     ///
     /// # Errors
-    /// [`DatasetError::Empty`] for zero episodes; [`DatasetError::Constraint`] for constraints that
-    /// cannot be satisfied.
+    /// Returns [`DatasetError::Empty`] for zero episodes; [`DatasetError::Constraint`] for
+    /// constraints that cannot be satisfied.
     fn check(&self) -> Result<(), DatasetError>;
 
     /// Returns the manifest of a folder of episodes.
@@ -36,26 +36,26 @@ pub trait Sampler: Clone + Sync {
     /// Reads the configuration of the folder `dir` from its manifest.
     ///
     /// # Errors
-    /// [`DatasetError::Foreign`] for other contents or another version, and the errors of
+    /// Returns [`DatasetError::Foreign`] for other contents or another version, and the errors of
     /// [`Self::check`].
     fn of(manifest: &RunManifest, dir: &Path) -> Result<Self, DatasetError>;
 
     /// Draws and simulates an episode.
     ///
     /// # Errors
-    /// [`DatasetError::Player`] if an external engine is required and fails.
+    /// Returns [`DatasetError::Player`] if an external engine is required and fails.
     fn draw(&self, index: u64) -> Result<Self::Episode, DatasetError>;
 
     /// Encodes an episode as a record that starts with its index and preserves all bits.
     ///
     /// # Errors
-    /// [`StoreError::Record`] if the episode cannot be encoded.
+    /// Returns [`StoreError::Record`] if the episode cannot be encoded.
     fn encode(episode: &Self::Episode) -> Result<Vec<u8>, StoreError>;
 
     /// Decodes the episode of a record.
     ///
     /// # Errors
-    /// A text with the reason if the record holds no episode.
+    /// Returns the reason if the record holds no episode.
     fn decode(record: &[u8]) -> Result<Self::Episode, String>;
 }
 
@@ -77,7 +77,7 @@ impl<S: Sampler> Set<S> {
     /// bit-identical for any number of threads.
     ///
     /// # Errors
-    /// If the configuration requests no data, or `progress` cancels.
+    /// Returns an error if the configuration requests no data, or `progress` cancels.
     pub fn in_memory(config: &S, progress: &dyn Progress) -> Result<Self, DatasetError> {
         config.check()?;
         let count = Count::new(progress, 0, config.count() as usize);

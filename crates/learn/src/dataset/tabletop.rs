@@ -12,10 +12,10 @@ use serde::{Deserialize, Serialize};
 
 use super::distributions::{heading, log_uniform, uniform};
 
-/// Range of the heights of ordinary objects, metres.
+/// Range of the heights of objects in most data sets, metres.
 pub(super) const USUAL_HEIGHT: Span = Span::new(0.05, 0.15);
 
-/// Range of the gaps of neighbours that do not touch, metres.
+/// Range of the gaps between neighbours that do not touch, metres.
 const GAP: Span = Span::new(1e-3, 0.06);
 
 /// Probability of friction values above 1, if the range includes them.
@@ -24,7 +24,7 @@ const STICKY: f64 = 0.15;
 /// Aspect ratio above which a cuboid is long, and share of long cuboids if the range includes them.
 const LONG: (f64, f64) = (3.0, 0.2);
 
-/// Kind of solids to draw.
+/// Kinds of solids among the random objects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Solids {
@@ -41,7 +41,7 @@ pub enum Solids {
 pub struct Crowd {
     /// Number of objects.
     pub count: usize,
-    /// Kind of solids.
+    /// Kinds of solids.
     pub solids: Solids,
     /// Probability that a further object touches (0 to 1 mm) the earlier ones.
     pub touching: f64,
@@ -49,7 +49,7 @@ pub struct Crowd {
     pub polygons: f64,
 }
 
-/// Draws a table with `crowd` around the origin and no obstacles.
+/// Draws a random scene: the objects of `crowd` around the origin, without obstacles.
 pub fn random_scene(rng: &mut Pcg64, ranges: &Ranges, crowd: Crowd) -> Scene {
     let friction = |rng: &mut Pcg64| random_friction(rng, ranges);
     let (middle, masses) = mass_span(rng, ranges);
@@ -96,8 +96,8 @@ pub fn anywhere(rng: &mut Pcg64, mut scene: Scene) -> Scene {
 /// Draws a reference mass and the range of the other masses in its scene, kg.
 pub(super) fn mass_span(rng: &mut Pcg64, ranges: &Ranges) -> (f64, Span) {
     let middle = log_uniform(rng, ranges.mass);
-    // The range extends by the square root of the ratio on either side, so any two masses keep the
-    // ratio.
+    // The ends of the range differ from the reference by the square root of the maximum ratio, so
+    // no two masses differ by more than that ratio.
     let reach = ranges.mass_ratio.sqrt();
     let (low, high) = (middle / reach, middle * reach);
     (middle, Span::new(low.max(ranges.mass.low), high.min(ranges.mass.high)))
@@ -141,7 +141,7 @@ fn random_prism(rng: &mut Pcg64, ranges: &Ranges) -> Shape {
         angles.sort_by(f64::total_cmp);
         let corner = |angle: &f64| Vector::new(size * angle.cos(), width * angle.sin()) / 2.0;
         let corners: Vec<Vector> = angles.iter().map(corner).collect();
-        // Slivers are rare on tables and difficult for engines.
+        // Thin prisms are rejected, because they are rare on tables and difficult for engines.
         let Ok(base) = ConvexPolygon::new(&corners) else { continue };
         let across = |axis: Vector| base.extent(axis) + base.extent(-axis);
         let [x, y] = [Vector::x(), Vector::y()].map(across);
@@ -154,7 +154,8 @@ fn random_prism(rng: &mut Pcg64, ranges: &Ranges) -> Shape {
     }
 }
 
-/// Draws a pose beside one of `objects` by moving the new object in along a straight line.
+/// Draws a pose beside one of `objects`: the new object moves in a straight line until it is near
+/// them.
 fn beside(rng: &mut Pcg64, objects: &[Object], footprint: Footprint, touching: f64) -> Pose {
     let anchor = &objects[rng.random_range(0..objects.len())];
     let around = anchor.shape.footprint();
@@ -172,7 +173,7 @@ fn beside(rng: &mut Pcg64, objects: &[Object], footprint: Footprint, touching: f
     let wide = around.extent(anchor.pose.local_vector(perpendicular(away)))
         + footprint.extent(Pose::new(0.0, 0.0, turn).local_vector(perpendicular(away)));
     let aside = perpendicular(away) * uniform(rng, -0.7, 0.7) * wide;
-    // The object starts beyond all others and moves straight in to the first contact.
+    // The object starts beyond all others and moves straight towards them until the first contact.
     let mut pose =
         Pose { position: anchor.pose.position + away * (reach + 1.0) + aside, heading: turn };
     let travels = objects.iter().filter_map(|object| {

@@ -77,7 +77,8 @@ const SHORTEST: f64 = 0.02;
 /// come to rest.
 ///
 /// # Errors
-/// [`DatasetError::Player`](super::DatasetError::Player) if MuJoCo is required and unavailable.
+/// Returns [`DatasetError::Player`](super::DatasetError::Player) if MuJoCo is required and
+/// unavailable.
 pub(super) fn pushed_by_tool(
     rng: &mut Pcg64,
     ranges: &Ranges,

@@ -27,7 +27,7 @@ impl LeverGraph {
     /// Creates a network of these sizes with the given parameters.
     ///
     /// # Errors
-    /// If a parameter is missing or its shape differs from [`lever_layout`].
+    /// Returns an error if a parameter is missing or its shape differs from [`lever_layout`].
     pub fn new(sizes: &LeverSizes, parameters: &Parameters) -> Result<Self> {
         Ok(Self { sizes: *sizes, variables: variables(lever_layout(sizes), parameters)? })
     }
@@ -42,7 +42,7 @@ impl LeverGraph {
     /// `beside` is an optional additional input of the gates, [B, 4 H].
     ///
     /// # Errors
-    /// Errors of candle.
+    /// Returns errors of candle.
     pub fn forward(
         &self,
         of: &LeverTensors,

@@ -186,7 +186,7 @@ fn add(target: &mut [f32], value: &[f32]) {
 /// Returns the values of a contiguous tensor on the CPU.
 ///
 /// # Errors
-/// If the tensor is not contiguous `f32` on the CPU.
+/// Returns an error if the tensor is not contiguous `f32` on the CPU.
 pub fn floats<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]> {
     match (storage, layout.contiguous_offsets()) {
         (CpuStorage::F32(values), Some((start, end))) => Ok(&values[start..end]),
@@ -197,7 +197,7 @@ pub fn floats<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]>
 /// Calls `f` with a tensor's values, which are copied only if they are not contiguous.
 ///
 /// # Errors
-/// Errors of candle and of `f`.
+/// Returns errors of candle and of `f`.
 pub fn with_floats<R>(tensor: &Tensor, f: impl FnOnce(&[f32]) -> Result<R>) -> Result<R> {
     let tensor = tensor.to_dtype(DType::F32)?.contiguous()?;
     let (storage, layout) = tensor.storage_and_layout();

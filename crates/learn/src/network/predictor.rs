@@ -38,7 +38,7 @@ impl Inputs {
     /// Normalises the feature tables of a batch.
     ///
     /// # Errors
-    /// Errors of candle; tables of complete rows cause none.
+    /// Returns errors of candle; tables of complete rows cause none.
     pub fn new<'a>(batch: impl Into<Rows<'a>>, normaliser: &Normaliser) -> Result<Self> {
         let rows = batch.into();
         let table = |values: &[f32], scales: &Statistics| {
@@ -78,7 +78,7 @@ impl Predictor {
     /// Creates a network for pushes with the given parameters.
     ///
     /// # Errors
-    /// Errors of [`Predictor::of`].
+    /// Returns errors of [`Predictor::of`].
     pub fn new(config: Config, parameters: &Parameters) -> Result<Self> {
         Self::of(&Tables::PUSHES, config, parameters)
     }
@@ -86,7 +86,7 @@ impl Predictor {
     /// Creates a network on these tables with the given parameters.
     ///
     /// # Errors
-    /// If a parameter is missing or its shape differs from [`layout_of`].
+    /// Returns an error if a parameter is missing or its shape differs from [`layout_of`].
     pub fn of(tables: &Tables, config: Config, parameters: &Parameters) -> Result<Self> {
         let variables = variables(layout_of(tables, &config), parameters)?;
         Ok(Self { config, variables })
@@ -100,7 +100,7 @@ impl Predictor {
     /// Returns a copy of the current values.
     ///
     /// # Errors
-    /// Errors of candle.
+    /// Returns errors of candle.
     pub fn parameters(&self) -> Result<Parameters> {
         let values = self
             .variables
@@ -116,7 +116,7 @@ impl Predictor {
     /// order of [`pushplan::internals::graph::Node::prior`].
     ///
     /// # Errors
-    /// Errors of candle.
+    /// Returns errors of candle.
     pub fn forward(&self, inputs: &Inputs) -> Result<Tensor> {
         let h = self.object(inputs)?;
         let nodes = h.dims()[1];

@@ -30,7 +30,7 @@ impl RegulatorGraph {
     /// Creates a regulator of F `features` and hidden `width` with the given parameters.
     ///
     /// # Errors
-    /// If a parameter is missing or its shape differs from [`regulator_layout`].
+    /// Returns an error if a parameter is missing or its shape differs from [`regulator_layout`].
     pub fn new(features: usize, width: usize, parameters: &Parameters) -> Result<Self> {
         let variables = variables(regulator_layout(features, width), parameters)?;
         Ok(Self { width, variables })
@@ -47,7 +47,7 @@ impl RegulatorGraph {
     /// Outputs are the logits, then the trust before its sigmoid.
     ///
     /// # Errors
-    /// Errors of candle.
+    /// Returns errors of candle.
     pub fn forward(&self, of: &Unrolled) -> Result<(Vec<Tensor>, Tensor)> {
         let pairs = of.ends[0].dims1()?;
         let h = self.width;
@@ -90,7 +90,7 @@ impl RegulatorGraph {
     /// probabilities.
     ///
     /// # Errors
-    /// Errors of candle.
+    /// Returns errors of candle.
     pub fn corrected(outputs: &Tensor, filtered: &Tensor) -> Result<Tensor> {
         let trust = (sigmoid(&outputs.narrow(1, TYPES, 1)?)? * 2.0)?;
         outputs.narrow(1, 0, TYPES)? + filtered.broadcast_mul(&trust)?

@@ -8,7 +8,7 @@ use pushplan::internals::network::{Layout, Parameters};
 /// Creates a variable for every parameter of a layout, by name.
 ///
 /// # Errors
-/// If a parameter is missing or its shape differs from the layout.
+/// Returns an error if a parameter is missing or its shape differs from the layout.
 pub fn variables(layout: Layout, parameters: &Parameters) -> Result<BTreeMap<String, Var>> {
     let variable = |(name, shape): (&str, Vec<usize>)| {
         let Some(values) = parameters.values.get(name) else {

@@ -64,7 +64,7 @@ impl<T: Trainable> Checkpoint<T> {
     /// Encodes the checkpoint.
     ///
     /// # Errors
-    /// If a tensor does not fit its shape.
+    /// Returns an error if a tensor does not fit its shape.
     pub fn to_bytes(&self, task: &T) -> Result<Vec<u8>, CheckpointError> {
         let Self { scales, optimiser, lead, best } = self;
         let (step, best) = (optimiser.step, best.as_ref());
@@ -83,7 +83,8 @@ impl<T: Trainable> Checkpoint<T> {
     /// Decodes a checkpoint.
     ///
     /// # Errors
-    /// [`CheckpointError`] if the bytes are no complete checkpoint or belong to another run.
+    /// Returns [`CheckpointError`] if the bytes are no complete checkpoint or belong to another
+    /// run.
     pub fn from_bytes(task: &T, bytes: &[u8]) -> Result<Self, CheckpointError> {
         let text = file_metadata(bytes, T::KEY)?.ok_or(CheckpointError::Foreign)?;
         let header: Header<T::Settings, T::Scales, T::Score> = serde_json::from_str(&text)?;

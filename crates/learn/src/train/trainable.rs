@@ -45,7 +45,7 @@ pub trait Trainable: Sync + Sized {
     /// of the last [`Self::follow`].
     ///
     /// # Errors
-    /// Errors of candle.
+    /// Returns errors of candle.
     fn gradient(
         &self,
         weights: &Parameters,
@@ -63,8 +63,8 @@ pub trait Trainable: Sync + Sized {
     /// shapes depend only on the scales.
     fn card(&self, scales: &Self::Scales, step: u64, score: Option<&Self::Score>) -> Self::Card;
 
-    /// Returns `true` if examples are to come from rollouts of this step's averaged weights from
-    /// now on.
+    /// Returns `true` if examples must come from rollouts of this step's averaged weights from now
+    /// on.
     fn refreshes(&self, _step: u64) -> bool {
         false
     }

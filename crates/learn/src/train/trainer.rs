@@ -92,8 +92,8 @@ impl<'a, T: Trainable> Trainer<'a, T> {
     /// Starts a new run, or resumes from the folder's checkpoint if there is one.
     ///
     /// # Errors
-    /// [`TrainError`] if there are no examples, or if the checkpoint is damaged or belongs to
-    /// another run.
+    /// Returns [`TrainError`] if there are no examples, or if the checkpoint is damaged or belongs
+    /// to another run.
     pub fn open(task: T, folder: &'a FolderLock) -> Result<Self, TrainError> {
         if task.is_empty() {
             return Err(TrainError::NoExamples);
@@ -117,7 +117,7 @@ impl<'a, T: Trainable> Trainer<'a, T> {
     /// Returns the file of the best weights, or `None` if stopped before the first evaluation.
     ///
     /// # Errors
-    /// [`TrainError`]; files saved before are kept.
+    /// Returns [`TrainError`]; files saved before are kept.
     pub fn run(mut self, progress: &dyn Progress) -> Result<Option<PathBuf>, TrainError> {
         let descent = self.task.descent();
         let mut followed = false;

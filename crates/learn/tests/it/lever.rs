@@ -161,7 +161,7 @@ fn training_learns_and_resumes_to_the_same_bits() {
     assert!(train_lever(&other, &data, &held_out, &lock, &NoProgress).is_err());
 }
 
-/// Tests feedback of predictions up to the first slip, as in the thesis.
+/// Tests feedback of predictions up to the first slip, as in Tekden (2020).
 #[test]
 fn what_is_fed_back_resumes_to_the_same_bits() {
     let (data, held_out) = (episodes(1, 48), episodes(2, 12));

@@ -17,8 +17,8 @@ use crate::mujoco_python::python;
 /// Number of lever-ups of each family.
 const CASES: u64 = 24;
 
-/// Maximum median distance and angle at the end of the turn, metres and degrees, and distance at
-/// rest, metres.
+/// Maximum median distance and angle at the end of the rotation, metres and degrees, and distance
+/// at rest, metres.
 const MARKS: [f64; 3] = [0.004, 2.5, 0.005];
 
 #[test]

@@ -228,8 +228,8 @@ pub enum Layer {
 /// Trajectory, column by column.
 ///
 /// A column holds its first value, then differences; a constant column holds one value. Planar
-/// poses have three columns: x, y and heading. Poses in space have eight: the planar ones, z, and
-/// the quaternion x, y, z, w of the rotation.
+/// poses have three columns: x, y and heading. 3-D poses have eight: the planar ones, z, and the
+/// quaternion x, y, z, w of the rotation.
 #[derive(Serialize)]
 pub struct Replay {
     pub layer: Layer,

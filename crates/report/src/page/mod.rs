@@ -1,7 +1,8 @@
-//! The plan page: one HTML file that plays a plan, or a run, with all related information.
+//! The plan page: one HTML file that plays a plan or a run, and states its models, warnings and
+//! verdict.
 //!
-//! The page needs no server and no network, and its content security policy forbids loading. On
-//! request it contains three.js for a 3-D view.
+//! The page needs no server and no network, and its content security policy forbids loading of
+//! other files. On request it contains three.js for a 3-D view.
 //!
 //! `data` defines the content of the file and `html` combines it with the script and the style. The
 //! other modules fill the data from their sources.

@@ -10,7 +10,8 @@ use pushplan::{
 use super::data::{End, Layer, Replay, fine, length, point};
 use crate::graph::{Graph, GraphRelation};
 
-/// Returns the packed trajectory with its verdict `reached`; `None` without a finite frame.
+/// Returns the packed trajectory; `reached` states whether it reaches the goal. Returns `None` if
+/// no frame is finite.
 pub fn replay(layer: Layer, trajectory: &Trajectory, reached: bool) -> Option<Replay> {
     replay_of(layer, trajectory.by.to_string(), &trajectory.frames, reached)
 }
@@ -20,8 +21,8 @@ pub fn sound(frames: &[Frame]) -> impl Iterator<Item = &Frame> {
     frames.iter().filter(|frame| frame.state.is_finite() && frame.tool.is_finite())
 }
 
-/// Returns packed frames of the source `by`, with the verdict `reached`; `None` without a finite
-/// frame.
+/// Returns packed frames of the source `by`; `reached` states whether they reach the goal. Returns
+/// `None` if no frame is finite.
 pub fn replay_of(layer: Layer, by: String, frames: &[Frame], reached: bool) -> Option<Replay> {
     let frames: Vec<&Frame> = sound(frames).collect();
     let objects = frames.first()?.state.poses.len();

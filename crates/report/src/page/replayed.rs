@@ -49,7 +49,7 @@ pub fn verdict_page(
     html::page(&making.data, view)
 }
 
-/// Returns a trajectory as shown on the page; in space if an object leaves the plane.
+/// Returns a trajectory as shown on the page; with 3-D poses if an object leaves the plane.
 pub(super) fn shown_replay(
     task: &Task,
     (plan, tools): (&Plan, &[Arc<Tool>]),

@@ -1,5 +1,4 @@
-//! Page data of plans in space: strokes, and replays in which every body has six degrees of
-//! freedom.
+//! Page data of 3-D plans: strokes, and replays in which every body has six degrees of freedom.
 
 use std::sync::Arc;
 
@@ -37,7 +36,8 @@ pub fn measure(plan: &Plan) -> Measure {
     }
 }
 
-/// Returns the packed trajectory in space with its verdict `reached`; `None` without a frame.
+/// Returns the packed 3-D trajectory; `reached` states whether it reaches the goal. Returns `None`
+/// if no frame is finite.
 pub fn replay(
     layer: Layer,
     task: &Task,
@@ -93,14 +93,15 @@ fn edge(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Option<(usize, Vector3
     Some((step.lever.plate, plate.start().local_point(point)))
 }
 
-/// Returns the columns of poses in space: x, y, no heading, z, and the quaternion of the rotation.
+/// Returns the columns of 3-D poses: x, y, zero instead of a heading, z, and the quaternion of the
+/// rotation.
 fn columns(poses: impl Iterator<Item = Pose3>) -> Vec<Vec<i64>> {
     let mut last = [0.0; 4];
     let rows: Vec<[i64; 8]> = poses
         .map(|pose| {
             let mut turn = pose.quaternion();
-            // A rotation has two quaternions. The one nearer to the last keeps interpolated frames
-            // from spinning.
+            // A rotation has two quaternions. The one nearer to the previous quaternion is used,
+            // because interpolated frames would spin otherwise.
             if turn.iter().zip(last).map(|(a, b)| a * b).sum::<f64>() < 0.0 {
                 turn = turn.map(|part| -part);
             }

@@ -36,7 +36,7 @@ fn drawn(shown: &ShownGoal, task: &Task) -> Goal {
     };
     for mark in &shown.marks {
         match mark {
-            // In space another quantity than the distance is measured.
+            // 3-D plans have another measured quantity than the distance.
             Mark::Disc { radius, .. } if !task.in_space() => goal.tolerance = length(*radius),
             Mark::Area(area) => goal.areas.push(region(area, false)),
             Mark::Outside(area) => goal.areas.push(region(area, true)),
@@ -63,7 +63,8 @@ pub fn task_stage(task: &Task) -> Json {
 
 /// Returns the bodies on a table, without goals.
 pub fn table(scene: &Scene) -> Stage {
-    // In space the solids of a compound object move as one; in the plane each has its own pose.
+    // In a 3-D state the solids of a compound object move as one; in a planar state each has its
+    // own pose.
     let in_space = scene.in_space();
     let solids = scene.objects.iter().enumerate();
     let objects = solids.filter(|(_, object)| !(in_space && object.is_part()));

@@ -37,7 +37,7 @@ const ROUND: usize = 16;
 const PICTURES: usize = 90;
 const PAUSE: usize = 12;
 
-/// Content of a picture in space: a replayed plan.
+/// Content of a 3-D picture: a replayed plan.
 pub struct SpacePicture<'a> {
     /// Title.
     pub title: String,
@@ -51,11 +51,11 @@ pub struct SpacePicture<'a> {
     pub tools: &'a [Arc<Tool>],
     /// Goal of the plan.
     pub goal: &'a Goal,
-    /// Trajectory in space.
+    /// 3-D trajectory.
     pub trajectory: &'a Trajectory,
 }
 
-/// Corners of a solid in space.
+/// Corners of a 3-D solid.
 type Corners = Vec<Vector3>;
 
 /// Projection of space onto a plane.

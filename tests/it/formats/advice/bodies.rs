@@ -39,12 +39,12 @@ fn bodies_and_joints_of_mjcf_become_what_the_advice_says() {
         (pair("axis='0 0 0'"), "write an axis such as `0 0 1`", &[("'0 0 0'/", "'0 0 1'/")]),
         (
             pair("axis='0 1 0'"),
-            "turn about the vertical, or slide along the table",
+            "rotate about the vertical, or slide along the table",
             &[("'0 1 0'", "'0 0 1'")],
         ),
         (
             pair("axis='0 1 0'"),
-            "turn about the vertical, or slide along the table",
+            "rotate about the vertical, or slide along the table",
             &[("axis='0 1 0'", "type='slide' axis='0 1 0'")],
         ),
         (

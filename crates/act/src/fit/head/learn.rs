@@ -123,7 +123,7 @@ impl Basis {
 /// held-out pushes are not predicted better, the change is zero or the earlier one.
 ///
 /// # Errors
-/// If the checksum of the weights cannot be computed.
+/// Returns an error if the checksum of the weights cannot be computed.
 pub fn learn(
     network: &Network,
     trials: &[Trial],

@@ -82,7 +82,8 @@ pub fn splits(
 /// Fits the models to a split and predicts its test set. Returns `None` if nothing moves in the
 /// training recordings.
 ///
-/// # Errors If the checksum of the weights cannot be computed.
+/// # Errors
+/// Returns an error if the checksum of the weights cannot be computed.
 pub fn measure_split(
     network: &Network,
     trials: &[Trial],

@@ -32,7 +32,7 @@ pub struct AdaptedRow {
     pub learnt: usize,
     /// Number of predictions.
     pub predicted: usize,
-    /// Share of the splits that learnt a head.
+    /// Share of the splits in which a head was learned.
     pub heads: f64,
     /// Mean position error of the analytic model as shipped, metres.
     pub shipped: f64,

@@ -31,8 +31,8 @@ pub enum Asked {
 /// Numbers of observations of a single stroke after which beliefs are evaluated.
 const OBSERVATIONS: [usize; 5] = [5, 10, 15, 20, 30];
 
-/// Numbers of observations after the first one with motion, as in the real world in the thesis
-/// (7.4.3).
+/// Numbers of observations after the first one with motion, as in the real world in Tekden (2020,
+/// section 7.4.3).
 const CONTACT: [usize; 5] = [0, 1, 3, 5, 10];
 
 /// Displacement above which an object counts as touched, metres, if it exceeds the noise.

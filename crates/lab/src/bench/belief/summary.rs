@@ -51,7 +51,7 @@ pub struct Right {
     pub joined: f64,
     /// Share of near pairs that had not moved.
     pub unmoved: f64,
-    /// Share of all ordered pairs, including those with the hand, as in the thesis.
+    /// Share of all ordered pairs, including those with the hand, as in Tekden (2020).
     pub all: f64,
 }
 

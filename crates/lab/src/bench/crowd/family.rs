@@ -32,8 +32,8 @@ impl CrowdFamily {
         }
     }
 
-    /// Returns the preset of its scenes and the tested numbers of objects: the numbers of the
-    /// thesis, including nine, the number in training.
+    /// Returns the preset of its scenes and the tested numbers of objects: the numbers of Tekden
+    /// (2020), including nine, the number in training.
     fn drawn(self) -> (Preset, [usize; 3]) {
         match self {
             CrowdFamily::Sparse => (Preset::Sparse, [6, 9, 12]),

@@ -12,7 +12,8 @@ use crate::parts::{LeverParts, PartsWeights};
 /// Loads the weights of a network of lever-ups: the shipped kind, a network with image input, or a
 /// network of parts.
 ///
-/// # Errors [`LeverNetworkError`] if the weights cannot be used.
+/// # Errors
+/// Returns [`LeverNetworkError`] if the weights cannot be used.
 pub fn load_lever(path: &Path) -> Result<Arc<dyn LeverModel>, LeverNetworkError> {
     let named = |error| LeverNetworkError::Weights { path: path.display().to_string(), error };
     let bytes = std::fs::read(path).map_err(|error| named(error.into()))?;

@@ -53,8 +53,8 @@ impl<'a> LeverSearch<'a> {
         Self { model, job, known: roll(model, job, &lengths), spacing }
     }
 
-    /// Returns the place whose predicted motion is closest to the frames `seen`, from the first on.
-    /// Returns `None` if there are no frames.
+    /// Returns the place whose predicted motion is closest to the first frames `seen`. Returns
+    /// `None` if there are no frames.
     pub fn infer(&self, seen: &[Pose3]) -> Option<LeverPoint> {
         if seen.is_empty() {
             return None;

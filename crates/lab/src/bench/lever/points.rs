@@ -13,7 +13,7 @@ use super::point_search::LeverSearch;
 /// Errors after a number of observed frames.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointRow {
-    /// Number of observed frames, from the first on.
+    /// Number of observed frames at the start of the motion.
     pub seen: usize,
     /// Angle between the true and the inferred place as seen from the centre of mass, radians.
     pub angle: Option<Summary>,

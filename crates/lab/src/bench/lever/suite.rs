@@ -1,4 +1,4 @@
-//! Generated lever tasks: the board must be taken out of the pocket of a drive.
+//! Generated levering tasks: a circuit board must be lifted out of its pocket in a hard drive.
 
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ const TOOL: &str = "screwdriver";
 /// Number of further perturbed replays of every plan, with draws that no planner has used.
 const FURTHER: usize = 32;
 
-/// Boards in pockets, each of another drive with a notch somewhere.
+/// Boards in pockets. Every task has another drive, with a notch at a random place of a wall.
 #[derive(Clone, Copy, Debug)]
 pub struct LeverSuite {
     config: LeverConfig,
@@ -85,7 +85,8 @@ impl LeverSuite {
 
     /// Solves task `index` with `planner`. The times are the planner's alone.
     ///
-    /// # Errors If the planner refuses the task.
+    /// # Errors
+    /// Returns an error if the planner refuses the task.
     pub fn measure(
         &self,
         planner: &Planner,

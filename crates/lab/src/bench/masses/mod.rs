@@ -1,4 +1,4 @@
-//! Accuracy of masses estimated from pushes in which objects touch each other (thesis, section
+//! Accuracy of masses estimated from pushes in which objects touch each other (Tekden 2020, section
 //! 8.3).
 
 mod suite;

@@ -1,4 +1,4 @@
-//! Information gained about joints from exploratory pushes, by the rule of their choice.
+//! Information gained about joints from exploratory pushes, for each rule that chooses them.
 
 mod pushes;
 mod suite;

@@ -52,7 +52,8 @@ impl RandomSuite {
     /// values are the true ones times a random factor with the spread of [`Unknowns`]. Supports are
     /// drawn anew, so that the plan behind the goal may miss it slightly.
     ///
-    /// # Errors If no task could be made with these tools.
+    /// # Errors
+    /// Returns an error if no task could be made with these tools.
     pub fn hidden(&self, index: usize) -> Result<HiddenTask, NoTask> {
         let made = self.task(index)?;
         let mut rng = generator(self.seed() ^ 0x41_DDE2, index as u64);

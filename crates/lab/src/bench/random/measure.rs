@@ -68,7 +68,8 @@ impl RandomSuite {
     /// Solves task `index` with `planner` and the tools of `library`, which are the tools of the
     /// suite. The times are the planner's alone.
     ///
-    /// # Errors If the task cannot be made or the planner refuses it.
+    /// # Errors
+    /// Returns an error if the task cannot be made or the planner refuses it.
     pub fn measure(
         &self,
         planner: &Planner,

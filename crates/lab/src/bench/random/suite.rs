@@ -89,7 +89,8 @@ impl RandomSuite {
     /// Returns task `index`. Apart from its index, a task does not depend on the other kinds of the
     /// suite.
     ///
-    /// # Errors If no task could be made with these tools.
+    /// # Errors
+    /// Returns an error if no task could be made with these tools.
     pub fn task(&self, index: usize) -> Result<SuiteTask, NoTask> {
         // The order of kinds is rotated from round to round, so that every residue class of
         // indices, as measured by a shard, has tasks of all kinds.

@@ -1,4 +1,4 @@
-//! Cost of a push at every level, all levels in turn.
+//! Cost of a push with every predictor; a round measures each once.
 
 use pushplan::internals::asset::ToolLibrary;
 use pushplan_bench::store::Seconds;
@@ -17,10 +17,10 @@ pub(super) const OBJECTS: [usize; 3] = [1, 3, 9];
 /// Number of pushes predicted together, as in a search.
 pub(super) const BATCH: usize = 64;
 
-/// Minimum processor time of each figure in a round, seconds.
+/// Minimum processor time per measurement, seconds.
 const ENOUGH: f64 = 0.05;
 
-/// Name of the time of 1e9 floating-point operations of matrix products.
+/// Key of the time that 1e9 floating-point operations of matrix products take.
 pub(super) const YARDSTICK: &str = "1e9 operations";
 
 /// Timed pushes: with one object, with three that touch, and in crowds of nine without joints.
@@ -32,7 +32,7 @@ impl Timed {
     /// Draws `count` pushes with one object, and a quarter of that number with more.
     pub fn draw(library: &ToolLibrary, seed: u64, count: usize) -> Self {
         let few = count.div_ceil(4);
-        // Touching cases of one pass over the tools have two objects, cases of the next pass three.
+        // Touching cases have two objects in one pass over the tools, and three in the next.
         let touching = Suite::draw(SuiteKind::Touching, library, seed, 2 * library.len() + few);
         let three = touching.cases.into_iter().filter(|case| case.scene.objects.len() == 3);
         Self {
@@ -44,7 +44,7 @@ impl Timed {
         }
     }
 
-    /// Runs a round: every level in turn, on this thread.
+    /// Runs a round: measures every predictor once, on this thread.
     pub fn round(&self, levels: &[Level]) -> Seconds {
         let mut seconds = Seconds::new();
         seconds.insert(YARDSTICK.to_owned(), 1e9 / peak());
@@ -64,12 +64,12 @@ impl Timed {
     }
 }
 
-/// Returns the name of the time of a push of `model` in a round.
+/// Returns the key of the time per push of `model` in a round.
 pub(super) fn key(objects: usize, model: &str) -> String {
     format!("{model}, {objects} on the table")
 }
 
-/// Returns the name of the time of a push that is predicted alone.
+/// Returns the key of the time of a push that is predicted alone.
 pub(super) fn alone_key(model: &str) -> String {
     format!("{model}, alone")
 }

@@ -28,7 +28,8 @@ pub struct Level {
 impl Level {
     /// Creates the predictor of `spec`.
     ///
-    /// # Errors [`ModelError`] if it needs weights that cannot be used.
+    /// # Errors
+    /// Returns [`ModelError`] if it needs weights that cannot be used.
     pub fn new(spec: &ModelSpec) -> Result<Self, ModelError> {
         Ok(Self { name: spec.to_string(), model: Arc::new(trivial::load(spec)?) })
     }
@@ -77,7 +78,8 @@ fn is_whole(kind: &ModelKind) -> bool {
 /// Returns all predictors: the shipped network with its variants, the networks of `other` weights
 /// files, the analytic model, the engines at several rates, and the trivial models.
 ///
-/// # Errors [`ModelError`] if weights cannot be used.
+/// # Errors
+/// Returns [`ModelError`] if weights cannot be used.
 pub fn levels(other: &[String]) -> Result<Vec<Level>, ModelError> {
     let strides = || STRIDES.into_iter().filter_map(NonZeroU8::new).map(Stride);
     let network = |weights, steps, stride| ModelKind::Network { weights, steps, stride };

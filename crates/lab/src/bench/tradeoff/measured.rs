@@ -17,7 +17,7 @@ use super::front::{Noise, Point, on_front};
 use super::levels::{Level, PlanLevel};
 use super::run::{CONTROL, TradeOffSettings, Unit, verification_key};
 
-/// Smallest relative difference of costs of tasks that counts.
+/// Relative difference below which costs of tasks count as equal.
 const LEAST_COST_NOISE: f64 = 0.02;
 
 /// Name of the reference model for costs.
@@ -303,7 +303,8 @@ fn task_noise(units: &[(Unit, Seconds)], plans: &[PlanLevel]) -> Noise {
     }
 }
 
-/// Returns the median over all figures of the relative excess of the median round over the fastest.
+/// Returns the relative excess of the median round over the fastest round: the median over all
+/// measured times.
 fn round_noise(rounds: &[&Seconds]) -> f64 {
     let keys = rounds.first().map(|round| round.keys()).into_iter().flatten();
     let mut excess: Vec<f64> = keys

@@ -29,7 +29,7 @@ const SUITES: [SuiteKind; 2] = [SuiteKind::Single, SuiteKind::Touching];
 /// have the same draws, which differ from those by which the plan was chosen.
 const PERTURBED: VerifySettings = VerifySettings { replays: 12, seed: 0xD157 };
 
-/// Name of the time of the level that solves every task a second time.
+/// Key of the time of the level that solves every task a second time.
 pub(super) const CONTROL: &str = "control";
 
 /// Size of a run.
@@ -92,7 +92,8 @@ impl<'a> TradeOff<'a> {
     /// Creates a run over `levels` and `plans`. Plans whose models are not among the levels are
     /// left out.
     ///
-    /// # Errors If the timing thread cannot be started.
+    /// # Errors
+    /// Returns an error if the timing thread cannot be started.
     pub fn new(
         library: &'a ToolLibrary,
         levels: Vec<Level>,
@@ -154,7 +155,8 @@ impl<'a> TradeOff<'a> {
     /// Measures unit `index`. Errors are computed on the current rayon pool; timed work runs on one
     /// thread.
     ///
-    /// # Errors If a task cannot be made with these tools.
+    /// # Errors
+    /// Returns an error if a task cannot be made with these tools.
     pub fn measure(&self, index: usize) -> Result<Measured<Unit>, RandomError> {
         let rounds = self.levels.len() + 1;
         let tasks = rounds + self.settings.rounds;
@@ -237,7 +239,7 @@ fn replay(task: &Task, solution: &mut Solution) {
     }
 }
 
-/// Returns the name of the time of a level's replays.
+/// Returns the key of the time of a level's replays.
 pub(super) fn verification_key(level: &str) -> String {
     format!("{level}, verification")
 }

@@ -44,7 +44,7 @@ pub struct EvaluateArgs {
     model: ModelSpec,
     #[command(flatten)]
     pub out_of_range: OutOfRangeArgs,
-    /// Test sets, see below; several are possible
+    /// Test sets, one or more, see below
     #[arg(long, value_name = "WHAT", num_args = 1..)]
     on: Vec<On>,
     /// Number of pushes of each kind of tool pushes

@@ -29,7 +29,8 @@ pub struct Crowds<'a> {
 impl Crowds<'_> {
     /// Returns the errors on a set of scenes.
     ///
-    /// # Errors If a model cannot be read.
+    /// # Errors
+    /// Returns an error if a model cannot be read.
     pub fn set(&self, set: &CrowdSet, session: &Session) -> Result<CrowdReport, CliError> {
         let models = self.models()?;
         let following = TerminalProgress::bar(session, &set.title());
@@ -43,7 +44,8 @@ impl Crowds<'_> {
 
     /// Prints the newest report, unless only a summary table is requested.
     ///
-    /// # Errors Returns errors of [`Form::show`].
+    /// # Errors
+    /// Returns errors of [`Form::show`].
     pub fn show_part(&self, reports: &[CrowdReport], session: &Session) -> Result<(), CliError> {
         match self.args.summary {
             true => Ok(()),
@@ -53,7 +55,8 @@ impl Crowds<'_> {
 
     /// Writes the folder's files, if there is a folder.
     ///
-    /// # Errors If a file cannot be written.
+    /// # Errors
+    /// Returns an error if a file cannot be written.
     pub fn write(&self, suites: &[HeldOutReport], crowds: &[CrowdReport]) -> Result<(), CliError> {
         let Some(folder) = &self.args.out else { return Ok(()) };
         let document = evaluation_document(suites, crowds);
@@ -80,7 +83,8 @@ impl Crowds<'_> {
 
     /// Builds a model that is used only where it can be trusted.
     ///
-    /// # Errors If a model cannot be read.
+    /// # Errors
+    /// Returns an error if a model cannot be read.
     pub fn load(&self, spec: &ModelSpec) -> Result<Box<dyn EffectModel>, CliError> {
         Ok(Box::new(trivial::load(spec)?.out_of_range(self.out_of_range.out_of_range())))
     }

@@ -37,7 +37,9 @@ impl Parts<'_> {
     /// Measures the remaining parts of this shard. Each table is printed, and the folder's files
     /// are written, as soon as its part is done.
     ///
-    /// # Errors If a model cannot be read, or the folder has other content or cannot be written.
+    /// # Errors
+    /// Returns an error if a model cannot be read, or the folder has other content or cannot be
+    /// written.
     pub fn run(
         &self,
         session: &Session,

@@ -42,7 +42,8 @@ pub struct CrowdArgs {
 impl CrowdArgs {
     /// Returns the selected sets.
     ///
-    /// # Errors If the options leave none of them.
+    /// # Errors
+    /// Returns an error if the options leave none of them.
     pub fn sets(&self, families: &[CrowdFamily]) -> Result<Vec<CrowdSet>, CliError> {
         let all = families.iter().flat_map(|family| CrowdSet::all(*family));
         let sets: Vec<CrowdSet> = all.filter(|set| self.picks(set)).collect();

@@ -36,15 +36,15 @@ pub struct MemoryArgs {
     /// Folders of held-out lever-ups with other seeds
     #[arg(long, value_name = "DIR", required_unless_present = "random_split", num_args = 1..)]
     held_out: Vec<PathBuf>,
-    /// Split as in the thesis: of 18 lever-ups of every folder, train on 14, hold out 1, and leave
-    /// 3 to `pushplan-lab levers --random-split`, whose shapes then occur in training
+    /// Split as in Tekden (2020): of 18 lever-ups of every folder, train on 14, hold out 1, and
+    /// leave 3 to `pushplan-lab levers --random-split`, whose shapes then occur in training
     #[arg(long, conflicts_with_all = ["held_out", "share"])]
     random_split: bool,
-    /// Use the pose of the previous frame as input, as in the thesis: the true pose in training,
+    /// Use the pose of the previous frame as input, as in Tekden (2020): the true pose in training,
     /// the predicted pose afterwards
     #[arg(long, requires = "no_prior")]
     feedback: bool,
-    /// Omit the frames after a slip, as in the thesis
+    /// Omit the frames after a slip, as in Tekden (2020)
     #[arg(long)]
     cut: bool,
     /// Features of the shape that the network sees

@@ -55,7 +55,7 @@ pub fn run(args: &TrainArgs, session: &Session) -> Result<u8, CliError> {
 /// Locks the folder of a run against other processes.
 ///
 /// # Errors
-/// If another process holds the lock, or the folder cannot be created.
+/// Returns an error if another process holds the lock, or the folder cannot be created.
 pub fn take(folder: &Path, session: &Session) -> Result<FolderLock, CliError> {
     interrupt::watch();
     Ok(FolderLock::take(folder, &TerminalProgress::bar(session, "folder"))?)
@@ -64,7 +64,7 @@ pub fn take(folder: &Path, session: &Session) -> Result<FolderLock, CliError> {
 /// Makes or reads data, with a progress bar called `name`.
 ///
 /// # Errors
-/// If `make` fails or is interrupted.
+/// Returns an error if `make` fails or is interrupted.
 pub fn data<D: Send>(
     session: &Session,
     name: &str,
@@ -79,7 +79,7 @@ pub fn data<D: Send>(
 /// Trains a network and prints the path of its best weights.
 ///
 /// # Errors
-/// If training fails or is interrupted.
+/// Returns an error if training fails or is interrupted.
 pub fn weights(
     session: &Session,
     train: impl FnOnce(&dyn Progress) -> Result<Option<PathBuf>, TrainError> + Send,

@@ -115,7 +115,7 @@ impl LeverArgs {
 /// Reads folders of lever-ups.
 ///
 /// # Errors
-/// If a folder holds other or incomplete data.
+/// Returns an error if a folder holds other or incomplete data.
 pub fn opened(folders: &[PathBuf], session: &Session) -> Result<Vec<LeverDataset>, CliError> {
     let open = |folder: &PathBuf| LeverDataset::open(folder);
     data(session, "data", |_| folders.iter().map(open).collect::<Result<_, DatasetError>>())
@@ -124,7 +124,7 @@ pub fn opened(folders: &[PathBuf], session: &Session) -> Result<Vec<LeverDataset
 /// Rejects held-out lever-ups with a seed of the training data, because they share shapes.
 ///
 /// # Errors
-/// [`CliError::Usage`] for a common seed.
+/// Returns [`CliError::Usage`] for a common seed.
 pub fn distinct(learned: &[LeverDataset], held_out: &[LeverDataset]) -> Result<(), CliError> {
     let seeds =
         |sets: &[LeverDataset]| sets.iter().map(|set| set.config().seed).collect::<Vec<_>>();

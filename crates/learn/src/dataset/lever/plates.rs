@@ -54,7 +54,7 @@ const BOARD: [[f64; 2]; 7] = [
     [0.0, 0.086],
 ];
 
-/// Returns polygon `shape` with the motion of the thesis.
+/// Returns polygon `shape` with the motion of Tekden (2020).
 pub(super) fn fixed(shapes: &mut Pcg64, rng: &mut Pcg64, shape: u64) -> (LeverScene, LeverUp) {
     let corners = polygon(shapes, shape);
     let place = any_place(rng, &corners);

@@ -1,4 +1,4 @@
-//! Random split over lever-ups, as in the thesis; parts share shapes.
+//! Random split over lever-ups, as in Tekden (2020); parts share shapes.
 
 use pushplan::internals::seeded::generator;
 use rand::Rng;

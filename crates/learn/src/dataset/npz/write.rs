@@ -39,8 +39,8 @@ struct Finished {
 /// interruptions. Returns their size in bytes.
 ///
 /// # Errors
-/// If the configuration requests no data, the folder holds other settings or a changed file, the
-/// folder is locked, a file cannot be written, or `progress` cancels.
+/// Returns an error if the configuration requests no data, the folder holds other settings or a
+/// changed file, the folder is locked, a file cannot be written, or `progress` cancels.
 pub fn generate_npz(
     config: &DatasetConfig,
     dir: &Path,

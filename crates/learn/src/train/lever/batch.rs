@@ -19,7 +19,7 @@ const BOUND: f32 = 10.0;
 const NEAR: f64 = 4e-4;
 
 /// Weights in the loss of axes, pose at rest, slip and ending, relative to positions during the
-/// turn.
+/// rotation.
 ///
 /// Positions dominate; the other terms help slightly.
 const WEIGHTS: [f64; 4] = [0.3, 0.1, 0.1, 0.1];
@@ -105,7 +105,7 @@ impl LeverBatch {
     /// Creates a batch of examples.
     ///
     /// # Errors
-    /// Errors of candle; examples of these sizes cause none.
+    /// Returns errors of candle; examples of these sizes cause none.
     pub fn new(
         examples: &[&LeverExample],
         scales: &[Statistics; 2],
@@ -168,7 +168,7 @@ impl LeverBatch {
     /// [`LeverGraph::forward`].
     ///
     /// # Errors
-    /// Errors of candle.
+    /// Returns errors of candle.
     pub fn loss(&self, network: &LeverGraph, beside: Option<&Tensor>) -> Result<Tensor> {
         let (poses, end) = network.forward(&self.tensors, beside)?;
         let [axes, rest, slip, ending] = WEIGHTS;

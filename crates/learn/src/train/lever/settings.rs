@@ -96,10 +96,10 @@ impl Default for LeverSettings {
 /// Errors on held-out lever-ups.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LeverScore {
-    /// Mean over lever-ups of the root mean square distance of the centre of mass over the turn,
-    /// metres.
+    /// Mean over lever-ups of the root mean square distance of the centre of mass over the
+    /// rotation, metres.
     pub lift: f64,
-    /// Mean distance at the end of the turn, metres.
+    /// Mean distance at the end of the rotation, metres.
     pub last: f64,
     /// Share of correctly predicted slips.
     pub slips: f64,

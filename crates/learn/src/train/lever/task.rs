@@ -21,7 +21,7 @@ use super::{LeverBatch, LeverExample, LeverScore, LeverSettings};
 /// Trains a network in `folder`, see [`Trainer::run`].
 ///
 /// # Errors
-/// [`TrainError`]; files saved before are kept.
+/// Returns [`TrainError`]; files saved before are kept.
 pub fn train_lever(
     settings: &LeverSettings,
     episodes: &[LeverEpisode],

@@ -1,9 +1,10 @@
 //! Scaling of the trained correction for all sources of ground truth.
 //!
 //! If ground truths disagree and outcomes are partly random, one-frame losses decrease with
-//! corrections that make whole pushes worse. The last layer is therefore scaled after training. The
-//! chosen share has the minimum error over the held-out sets, among the shares whose error on no
-//! set exceeds the analytic model's significantly.
+//! corrections that make whole pushes worse. The last layer is therefore scaled after training, by
+//! a share of 0 to 1. A share is rejected if it is significantly worse than the analytic model on a
+//! held-out set. Among the remaining shares, the one with the smallest error over all held-out sets
+//! is chosen.
 
 use pushplan::internals::effect::Network;
 use pushplan::internals::network::PredictorWeights;
@@ -20,8 +21,8 @@ const SHARES: [f32; 6] = [0.15, 0.3, 0.45, 0.6, 0.8, 1.0];
 /// significant.
 const CHANCE: f64 = 0.01;
 
-/// Returns the weights with the best share of their correction for all of `sets`, and that share;
-/// zero if no other share is better.
+/// Returns the best share of the correction for all of `sets`, with the weights scaled by it. The
+/// share is zero if no other share is better.
 pub(super) fn shared(
     weights: &PredictorWeights,
     sets: &[Dataset],
@@ -41,7 +42,8 @@ pub(super) fn shared(
     for share in SHARES {
         let ratios: Vec<f64> =
             errors(share).iter().zip(&alone).map(|(own, prior)| own / prior.max(1e-9)).collect();
-        progress.line(&format!("share {share}: errors relative to the prior {ratios:.3?}"));
+        progress
+            .line(&format!("share {share}: errors relative to the analytic model {ratios:.3?}"));
         let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
         if ratios.iter().all(|ratio| *ratio <= 1.0 + CHANCE) && mean < best.1 {
             best = (share, mean);

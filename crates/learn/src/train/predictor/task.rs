@@ -32,7 +32,7 @@ const CROWDS: f64 = 0.7;
 /// Trains a network in `folder`, see [`Trainer::run`].
 ///
 /// # Errors
-/// [`TrainError`]; files saved before are kept.
+/// Returns [`TrainError`]; files saved before are kept.
 pub fn train_predictor(
     settings: &PredictorSettings,
     data: &[Dataset],

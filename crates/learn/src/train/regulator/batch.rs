@@ -8,8 +8,8 @@ use pushplan_act::regulator::{LEAST, TYPES};
 use crate::dataset::Lesson;
 use crate::network::{RegulatorGraph, Unrolled};
 
-/// Weights of the first and the last window in the loss (thesis 8.1.3, which starts at zero). Late
-/// beliefs must be correct, early ones may be undecided.
+/// Weights of the first and the last window in the loss (Tekden 2020, section 8.1.3, starts at
+/// zero). Late beliefs must be correct, early ones may be undecided.
 const WEIGHT: [f32; 2] = [0.2, 2.0];
 
 /// Weight of squared changes of hidden states in the loss, as in the original work, which keeps

@@ -22,7 +22,7 @@ pub struct RegulatorScore {
 impl fmt::Display for RegulatorScore {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([filter, right], [of_filter, nll]) = (self.right.map(|share| 1e2 * share), self.nll);
-        write!(f, "right {right:.1} % (filter {filter:.1} %), nll {nll:.3} ({of_filter:.3})")
+        write!(f, "correct {right:.1} % (filter {filter:.1} %), nll {nll:.3} ({of_filter:.3})")
     }
 }
 

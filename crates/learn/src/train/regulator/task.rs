@@ -23,7 +23,7 @@ const DRAFTS: f64 = 0.4;
 /// Trains a regulator in `folder`, see [`Trainer::run`].
 ///
 /// # Errors
-/// [`TrainError`]; files saved before are kept.
+/// Returns [`TrainError`]; files saved before are kept.
 pub fn train_regulator(
     settings: &RegulatorSettings,
     lessons: &[Lesson],
