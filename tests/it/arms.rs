@@ -311,7 +311,7 @@ fn faults_of_arms_say_where_and_what_to_do() {
 fn a_damaged_arm_is_a_fault_with_its_place_in_the_urdf() {
     for (good, bad, message) in [
         ("upper=\"2.7\"", "upper=\"-2.8\"", "joint `elbow` has an empty range of positions"),
-        ("lower=\"-2.7\"", "lower=\"${low}\"", "`lower` has `${low}`"),
+        ("lower=\"-2.7\"", "lower=\"${low}\"", "`lower` contains `${low}`"),
         (
             "name=\"wrist3\" type=\"continuous\"",
             "name=\"wrist3\" type=\"planar\"",

@@ -121,7 +121,7 @@ fn what_is_tall_is_stopped_by_the_shelf_in_every_engine_and_what_is_low_is_not()
     assert!(faults.contains("at the goal `tin` would overlap `shelf`"), "{faults}");
     let sunk = SHELF.replace("0.72, 0, 0.09", "0.72, 0, -0.02");
     let faults = Task::parse(&sunk, "sunk.yaml").expect_err("below the table").to_string();
-    assert!(faults.contains("below it"), "{faults}");
+    assert!(faults.contains("below the table"), "{faults}");
 }
 
 #[test]

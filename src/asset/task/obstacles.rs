@@ -24,7 +24,7 @@ const OBSTACLE: Value = Value::Map(&[
         "position",
         PLACE,
         "Centre, [x, y] in metres; a third number is the height of its underside above the table, \
-         by default 0.",
+         0 if omitted.",
     ),
     Key::optional("yaw_deg", ANGLE, "Heading, degrees; default 0."),
     Key::optional("friction", FRICTION, "Friction value; default 0.5."),

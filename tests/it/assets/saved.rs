@@ -147,7 +147,7 @@ fn damaged_plan_files_are_refused() {
       help: write a number that is smaller than 1e308
     "#);
     assert_snapshot!(damaged("\"mass\":0.4", "\"mass\":-1"), @r#"
-    p.json:1:2392: error: expected a mass in kg from 0.001 to 1000, found the number -1
+    p.json:1:2394: error: expected a mass in kg from 0.001 to 1000, found the number -1
       help: masses are in kilograms: 250 g is 0.25
     "#);
     assert_snapshot!(damaged("\"push\":{\"tool\":\"stick\"", "\"push\":{\"tool\":\"rake\""), @r#"

@@ -79,5 +79,5 @@ fn files_are_found_and_read_as_the_advice_says() {
     helped((&robot, Some("none")), "give an existing folder with --root", (&robot, Some("")));
     let above = whole(&mesh("../parts/cube.obj"));
     let scenes = [("scenes/scene.xml", above.as_str())];
-    helped((&scenes, None), "help: --root", (&scenes, Some("")));
+    helped((&scenes, None), "--root", (&scenes, Some("")));
 }
