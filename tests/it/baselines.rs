@@ -57,7 +57,7 @@ fn mistakes_change_friction_or_the_start_and_keep_joints_whole() {
     let assumptions = Assumptions { friction: Some(70), ..Assumptions::default() };
     let slippery = Assuming::new(planar.clone(), assumptions);
     assert_eq!(slippery.spec().to_string(), "planar,friction=70%");
-    assert_eq!(slippery.trust(&scene, &job(&scene)).error(), None, "measured with what is true");
+    assert_eq!(slippery.trust(&scene, &job(&scene)).error(), None, "measured with the true values");
     let mut lighter = scene.clone();
     lighter.table_friction *= 0.7;
     lighter.objects.iter_mut().for_each(|object| object.friction *= 0.7);

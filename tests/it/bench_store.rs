@@ -37,7 +37,7 @@ fn a_run_that_was_interrupted_again_and_again_leaves_the_same_bytes() {
     assert_eq!(compared(&broken), compared(&whole));
     let store = Store::<Record>::load(&broken).expect("a run");
     assert!(store.is_complete());
-    assert_eq!(store.finished(), measured, "what is read differs from what was measured");
+    assert_eq!(store.finished(), measured, "the saved measurement differs");
     assert!(store.finished().iter().all(|task| task.seconds["total"] == task.index as f64));
 }
 

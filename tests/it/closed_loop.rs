@@ -112,7 +112,7 @@ fn a_run_that_is_stopped_goes_on_to_the_same_bits_and_threads_change_nothing() {
         })
     };
     let trace = whole(1);
-    assert!(trace.steps.len() >= 2, "nothing is left to go on with");
+    assert!(trace.steps.len() >= 2, "too few pushes remain to resume the run");
     assert_eq!(json(&trace), json(&whole(3)));
 
     assert_eq!(json(&interrupted(&runner, &task)), json(&trace));
@@ -218,7 +218,7 @@ fn a_lost_object_is_an_error_only_if_the_goal_is_about_it() {
     ended.expect("the other one is enough");
     assert!(trace.end == Some(End::Reached) && notes(&trace.steps) == [Note::Unseen { object: 1 }]);
     let (ended, _) = spoilt(&task, vec![0], hide(0));
-    let error = ended.expect_err("nobody knows where it is");
+    let error = ended.expect_err("the object was never observed");
     assert_eq!(error.to_string(), "`near` was not observed in 3 observations with the tool lifted");
     let (ended, _) = spoilt(&task, Vec::new(), |_, looks| {
         looks.iter_mut().for_each(|look| look.seen.truncate(1));

@@ -105,7 +105,7 @@ fn regions_of_every_outline_are_written_and_read() {
   {name: c, area: {circle: {radius: 0.1}}, position: [0.2, -0.4], for: [tool]}";
     let stated = keeping_out(text);
     let written = stated.to_yaml().expect("a file");
-    let read = Task::parse(&written, "task.yaml").expect("what is written");
+    let read = Task::parse(&written, "task.yaml").expect("a readable task");
     assert_eq!(read.scene.keep_out.len(), 3);
     for (one, other) in stated.scene.keep_out.iter().zip(&read.scene.keep_out) {
         let moved = (one.pose.position - other.pose.position).norm();

@@ -50,7 +50,7 @@ fn cut(model: &dyn EffectModel, (scene, motion): &(Scene, ToolMotion), first: us
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("cut.recording.json");
     recording.write(&path).expect("a writable folder");
-    Recording::load(&path).expect("what is written can be read")
+    Recording::load(&path).expect("a readable recording")
 }
 
 /// Returns the recording with zero velocities in the first frame.

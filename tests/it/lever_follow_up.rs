@@ -73,7 +73,7 @@ fn pushed(x: f64, gap: f64, length: f64) -> Plan {
     let tool = library().get("paddle").expect("shipped").clone();
     let front = tool.parts().iter().map(|part| match part.shape {
         Shape::Cuboid { size } => part.pose.position.x + 0.5 * size[0],
-        _ => panic!("the paddle is made of cuboids"),
+        _ => panic!("the paddle has only cuboids"),
     });
     let front = front.fold(0.0, f64::max) - tool.grip.position.x;
     let start = Vector::new(x - HALF - gap - front, 0.0);

@@ -192,7 +192,7 @@ fn a_planner_refuses_warns_with_a_number_or_simulates() {
     };
     match planner(OutOfRange::Refuse).solve(&task, &library) {
         Err(SolveError::Refused { warnings, .. }) => {
-            assert_eq!(warnings.len(), 1, "said once, not with every tool: {warnings:?}");
+            assert_eq!(warnings.len(), 1, "one warning, not one for every tool: {warnings:?}");
         }
         other => panic!("{other:?}"),
     }

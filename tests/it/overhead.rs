@@ -151,7 +151,7 @@ fn a_shelf_and_a_region_are_written_read_and_drawn() {
     );
     let task = task(&text);
     let again =
-        Task::parse(&task.to_yaml().expect("a file"), "again.yaml").expect("what is written");
+        Task::parse(&task.to_yaml().expect("a file"), "again.yaml").expect("a readable task");
     assert_eq!(again, task);
     let solution = solved(&task);
     assert_eq!(solution.status, PlanStatus::Solved);
@@ -197,5 +197,5 @@ fn a_second_push_is_made_where_the_lifted_tool_gets_to() {
         "{blocked:?}"
     );
     let higher = wall(0.5, 3.0).replace("max: 0.95}", "max: 0.95}, travel: 0.6");
-    assert!(forbidden(&higher).is_empty(), "a task says how high they are");
+    assert!(forbidden(&higher).is_empty(), "a task states their height");
 }

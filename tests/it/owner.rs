@@ -252,7 +252,7 @@ fn what_else_moves_is_said_and_what_is_to_be_kept_stays() {
     let solution = solved(&kept);
     assert!(!matches!(solution.status, PlanStatus::Solved | PlanStatus::Fragile));
     let again =
-        Task::parse(&kept.to_yaml().expect("a file"), "kept.yaml").expect("what is written");
+        Task::parse(&kept.to_yaml().expect("a file"), "kept.yaml").expect("a readable task");
     assert_eq!(again, kept);
     // Beside the vase there is a free path.
     let aside = kept.to_yaml().expect("a file").replace("- 0.6\n  - 0.0", "- 0.58\n  - -0.14");

@@ -344,8 +344,8 @@ fn follow(browser: &mut Browser, part: &str) -> Json {
 fn wait(browser: &mut Browser, until: &str) {
     let waited = browser.value(&format!(
         "new Promise((done) => {{ const since = performance.now(); const look = () => {{ \
-         if ({until}) done(true); else if (performance.now() - since > 20000) done(false); \
-         else requestAnimationFrame(look); }}; look(); }})"
+         if ({until}) return done(true); if (performance.now() - since > 20000) return done(false); \
+         requestAnimationFrame(look); }}; look(); }})"
     ));
     assert_eq!(waited, true, "{until}");
 }

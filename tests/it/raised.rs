@@ -173,7 +173,7 @@ fn files_say_how_high_parts_are_and_what_cannot_be_is_a_fault() {
     let task = Task::parse(PAN, "pan.yaml").unwrap_or_else(|faults| panic!("{faults}"));
     assert!(task.scene.objects[2].is_raised() && !task.in_space());
     let written = task.to_yaml().expect("a file");
-    assert_eq!(Task::parse(&written, "again.yaml").expect("what is written"), task);
+    assert_eq!(Task::parse(&written, "again.yaml").expect("a readable task"), task);
     let faults = |from: &str, to: &str| {
         assert!(PAN.contains(from), "{from}");
         Task::parse(&PAN.replace(from, to), "pan.yaml").expect_err(to).to_string()

@@ -101,7 +101,7 @@ goal:
 fn where_not_all_goals_can_be_met_the_plan_is_partial_and_never_solved() {
     let solution = solve(&Task::parse(FAR, "far.yaml").expect("sound"));
     assert_eq!(solution.status, PlanStatus::Partial);
-    let partial = solution.partial.as_ref().expect("says which");
+    let partial = solution.partial.as_ref().expect("a partial plan");
     assert_eq!(partial.met, [1]);
     let verdict = solution.plans[0].verdict.as_ref().expect("replayed");
     assert!(!verdict.passed && !verdict.nominal_ok());

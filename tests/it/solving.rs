@@ -126,7 +126,7 @@ fn what_decides_mends_what_screens_and_has_the_last_word() {
         .unwrap();
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = solution.best().unwrap();
-    assert_eq!(best.refinement.aimed_at, None, "no replay had to tell how far it is off");
+    assert_eq!(best.refinement.aimed_at, None, "no replay had to measure its error");
     assert!(best.outcome.error() < 0.3 * off.norm(), "{}", best.outcome.error());
     assert!(best.refinement.after < 0.3 * off.norm(), "{}", best.refinement.after);
     let [screened, decided] = [screened, decided].map(|count| count.load(Ordering::Relaxed));

@@ -92,7 +92,7 @@ fn a_tool_set_down_on_an_object_is_no_pass() {
     assert!(!verdict.passed);
     for evidence in &verdict.evidence {
         let landed = Warning::SetDownOn { object: "can".into(), stroke: 1 };
-        assert_eq!(evidence.warnings, [landed], "said once");
+        assert_eq!(evidence.warnings, [landed], "one warning");
     }
 }
 

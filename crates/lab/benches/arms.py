@@ -215,7 +215,7 @@ def main():
                 if code == 0:
                     line |= {"faults": faults, "off_mm": worst and round(worst * 1e3, 4)}
                 else:
-                    line["says"] = (done.stderr or done.stdout)[-300:]
+                    line["message"] = (done.stderr or done.stdout)[-300:]
                 print(json.dumps(line), flush=True)
             total = {"arm": arm, "flange": length, "tasks": len(solved), "solved": count}
             total["pinocchio_agrees"] = passed

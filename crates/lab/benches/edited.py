@@ -94,8 +94,8 @@ def main():
             if done.returncode == 0:
                 wrong += 1
                 print(f"  {at.name}: passes", flush=True)
-        said = {0: "pass", 3: "refused", 5: "fail", 7: "fragile"}
-        print(f"{name}: {', '.join(f'{count} {said.get(code, code)}' for code, count in sorted(codes.items()))}", flush=True)
+        verdicts = {0: "pass", 3: "refused", 5: "fail", 7: "fragile"}
+        print(f"{name}: {', '.join(f'{count} {verdicts.get(code, code)}' for code, count in sorted(codes.items()))}", flush=True)
     print(f"{wrong} of {len(EDITS) * len(plans)} pass")
     return 1 if wrong else 0
 

@@ -354,8 +354,8 @@ def main():
                     wrong += 1
                     print(f"  {path.name}: {done.stdout.splitlines()[0]}", flush=True)
         if arguments.solve:
-            said = {0: "solved", 3: "refused", 4: "no plan", 5: "failed or fragile", 8: "partial"}
-            counts = ", ".join(f"{count} {said.get(code, f'exit {code}')}" for code, count in sorted(codes.items()))
+            verdicts = {0: "solved", 3: "refused", 4: "no plan", 5: "failed or fragile", 8: "partial"}
+            counts = ", ".join(f"{count} {verdicts.get(code, f'exit {code}')}" for code, count in sorted(codes.items()))
             print(f"{name}: {counts}", flush=True)
     if arguments.solve:
         print(f"{wrong} called solved")

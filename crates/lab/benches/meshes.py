@@ -199,7 +199,7 @@ def own_solids(text, name, model, data, shift):
         else:
             element.set("size", " ".join(map(repr, model.geom_size[geom].tolist())))
     contact = root.find("contact")
-    told = set()
+    reported = set()
     for pair in list(contact):
         ends = [pair.get("geom1"), pair.get("geom2")]
         if not ours & set(ends):
@@ -207,9 +207,9 @@ def own_solids(text, name, model, data, shift):
         contact.remove(pair)
         (other,) = set(ends) - ours or {None}
         # Its parts do not collide with each other; all of them collide with other bodies alike.
-        if other is None or other in told:
+        if other is None or other in reported:
             continue
-        told.add(other)
+        reported.add(other)
         for own in names:
             added = copy.deepcopy(pair)
             added.set("geom1", own)

@@ -100,7 +100,7 @@ def sampled(task, seed):
     return made[nearest], off[nearest], seconds + extra
 
 
-def said(off):
+def formatted(off):
     turned = f", {math.degrees(off[2]):.1f} degrees" if off[2] > 0 else ""
     return f"{1e3 * off[1]:.1f} mm{turned}"
 
@@ -123,7 +123,7 @@ def main():
         ratios.append(seconds / own)
         ours = ((plan.tool.name, plan.grip_yaw), plan)
         exact = [rolled([one], step=EXACT)[0][0] for one in (best, ours)]
-        numbers = [f"{seconds:.2f} s", f"{own:.3f} s", f"{ratios[-1]:.0f}", *map(said, [thinks, *exact])]
+        numbers = [f"{seconds:.2f} s", f"{own:.3f} s", f"{ratios[-1]:.0f}", *map(formatted, [thinks, *exact])]
         print(f"| {name} | " + " | ".join(numbers) + " |", flush=True)
     print(f"\nMedian factor {statistics.median(ratios):.0f}.")
 

@@ -19,7 +19,7 @@ const CROWD: usize = 20;
 
 pub fn blade(tool: Tool) {
     let text = serde_json::to_string(&tool.to_json()).expect("numbers");
-    assert_eq!(Tool::parse(&text, "again.yaml").expect("what was read"), tool);
+    assert_eq!(Tool::parse(&text, "again.yaml").expect("a readable tool"), tool);
 }
 
 pub fn task(task: Task) {

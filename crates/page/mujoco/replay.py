@@ -70,7 +70,7 @@ class Arm:
         place = h[0] * a + h[1] * dt * v + h[2] * b + h[3] * dt * w
         return place, (d[0] * a + d[2] * b) / dt + d[1] * v + d[3] * w
 
-    def tell(self, data, time):
+    def command(self, data, time):
         """Sets the targets of the servos for this time."""
         place, speed = self.at(time)
         self.off = max(self.off, float(np.abs(data.qpos[self.position] - place).max()))
@@ -157,9 +157,9 @@ class Replay:
         self.data.qpos[self.arm.position] = self.arm.points[0]
         mujoco.mj_forward(self.model, self.data)
         for k in range(math.ceil(self.arm.times[-1] / self.step)):
-            self.arm.tell(self.data, k * self.step)
+            self.arm.command(self.data, k * self.step)
             self.advance()
-        self.arm.tell(self.data, self.arm.times[-1])
+        self.arm.command(self.data, self.arm.times[-1])
         self.rest(self.advance)
 
     def set_down(self, place):

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 if sys.version_info >= (3, 11):
     from typing import NotRequired
-else:
+if sys.version_info < (3, 11):
     from typing_extensions import NotRequired
 
 __all__ = [

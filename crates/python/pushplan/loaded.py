@@ -118,9 +118,9 @@ class _Written:
             density=repr(float(chosen.density)), viscosity=repr(float(chosen.viscosity)),
         )
         flag = SubElement(option, "flag")
-        for what in ("gravity", "contact", "constraint", "limit"):
-            if chosen.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{what.upper()}"):
-                flag.set(what, "disable")
+        for kind in ("gravity", "contact", "constraint", "limit"):
+            if chosen.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{kind.upper()}"):
+                flag.set(kind, "disable")
 
     def _mesh(self, asset: Element, mesh: int) -> None:
         model = self.model

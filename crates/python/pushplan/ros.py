@@ -122,7 +122,7 @@ class Node:
         heading = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
         pose = np.array([at.x, at.y, heading])
         if not np.isfinite(pose).all():
-            self._say("ignored", what=f"pose of {thing} with numbers that are not finite")
+            self._publish("ignored", what=f"pose of {thing} with numbers that are not finite")
             return
         with self._changed:
             self._seen[thing] = (time.monotonic(), pose)
@@ -175,7 +175,7 @@ class Node:
         try:
             self._task_of(goal)
         except ValueError as error:
-            self._say("refused", why=str(error))
+            self._publish("refused", why=str(error))
             return answers.REJECT
         # Held until the goal has ended.
         if not self._one.acquire(blocking=False):
@@ -211,11 +211,11 @@ class Node:
     def _runs(self, task: _native.Task) -> dict[str, Any]:
         """Carries out a run and returns its last feedback."""
         try:
-            return self._say("ended", **self._run_through(task))
+            return self._publish("ended", **self._run_through(task))
         except Stopped as stop:
-            return self._say("cancelled" if self._cancelled.is_set() else "failed", why=str(stop))
+            return self._publish("cancelled" if self._cancelled.is_set() else "failed", why=str(stop))
         except Exception as error:  # noqa: BLE001 - the waiting client must receive the error
-            return self._say("failed", why=f"{type(error).__name__}: {error}")
+            return self._publish("failed", why=f"{type(error).__name__}: {error}")
         finally:
             self._goal = None
             self._one.release()
@@ -225,14 +225,14 @@ class Node:
         for tried in range(self.tries + 1):
             task = self._look(given, since)
             score = task.score(np.array(task.start))
-            self._say("looked", tried=tried, score=score)
+            self._publish("looked", tried=tried, score=score)
             if score <= 1.0:
                 return {"reached": True, "plans": tried}
             if tried == self.tries:
                 break
             solution = self._planned(task)
             best = solution.best
-            self._say("planned", status=solution.status, tool=best.tool.name if best else None)
+            self._publish("planned", status=solution.status, tool=best.tool.name if best else None)
             if best is None or not solution.solved:
                 return {"reached": False, "plans": tried, "why": solution.status}
             self._carry_out(best)
@@ -268,7 +268,7 @@ class Node:
         if joints:
             self.trajectory.publish(self._trajectory_of(joints))
             takes = joints["points"][-1]["time"]
-        self._say("sent", seconds=takes, joints=bool(joints))
+        self._publish("sent", seconds=takes, joints=bool(joints))
         until = time.monotonic() + takes + PATIENCE
         with self._changed:
             while self._answer is None:
@@ -285,13 +285,13 @@ class Node:
 
     # Publications.
 
-    def _say(self, state: str, **more: Any) -> dict[str, Any]:
-        said = {"state": state, **more}
-        self.feedback.publish(self.ros["String"](data=json.dumps(said)))
+    def _publish(self, state: str, **more: Any) -> dict[str, Any]:
+        published = {"state": state, **more}
+        self.feedback.publish(self.ros["String"](data=json.dumps(published)))
         goal = self._goal
         if goal is not None:
             goal.publish_feedback(self.ros["Push"].Feedback(state=state, report=json.dumps(more)))
-        return said
+        return published
 
     def _path_of(self, plan: _native.Plan) -> Any:
         path = self.ros["Path"]()
@@ -324,8 +324,8 @@ class Node:
         return message
 
 
-def _answer(answer: Any, success: bool, says: dict[str, Any]) -> Any:
-    answer.success, answer.message = success, json.dumps(says)
+def _answer(answer: Any, success: bool, report: dict[str, Any]) -> Any:
+    answer.success, answer.message = success, json.dumps(report)
     return answer
 
 

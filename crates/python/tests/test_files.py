@@ -43,9 +43,9 @@ def test_faults_are_the_words_of_the_command(tmp_path: Path, command: Any) -> No
     path.write_text(TEXT)
     with pytest.raises(pushplan.FileError) as raised:
         pushplan.Task.load(path)
-    said = command("check", path)
-    assert said.returncode == 3
-    assert str(raised.value) in said.stderr + said.stdout
+    checked = command("check", path)
+    assert checked.returncode == 3
+    assert str(raised.value) in checked.stderr + checked.stdout
 
 
 def test_faults_of_a_mapping_name_its_keys(task: pushplan.Task) -> None:

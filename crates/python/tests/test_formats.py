@@ -200,10 +200,10 @@ def test_a_recording_is_read_by_mcap(task: pushplan.Task, tmp_path: Path) -> Non
     with path.open("rb") as file:
         reader = make_reader(file)
         [attached] = reader.iter_attachments()
-        [said] = reader.iter_metadata()
+        [stated] = reader.iter_metadata()
     assert attached.media_type == "application/json"
     assert pushplan.Plan.parse(attached.data.decode()).to_dict() == plan(task).to_dict()
-    assert float(said.metadata["error_m"]) == predicted.error and said.metadata["model"] == "planar"
+    assert float(stated.metadata["error_m"]) == predicted.error and stated.metadata["model"] == "planar"
 
 
 def test_the_command_writes_the_same_recording(
@@ -225,7 +225,7 @@ def test_a_trajectory_of_another_task_is_refused(task: pushplan.Task, tmp_path: 
     assert not (tmp_path / "x.mcap").exists()
 
 
-def test_data_are_read_by_numpy_and_are_what_the_engines_say(
+def test_data_are_read_by_numpy_and_equal_the_results_of_the_engines(
     tmp_path: Path, learn: Callable[..., Any]
 ) -> None:
     made = learn("generate", tmp_path, "--format", "npz", "--episodes", 40, "--seed", 3)
@@ -274,10 +274,10 @@ def test_data_are_read_by_numpy_and_are_what_the_engines_say(
     statistics = json.loads((tmp_path / "statistics.json").read_text())
     for key in ("mass", "friction", "size", "pose", "velocity", "change"):
         columns = data[key].reshape(-1, 3) if data[key].shape[-1] == 3 and data[key].ndim > 2 else data[key].reshape(-1, 1)
-        said = statistics[key]
-        assert said["mean"] == pytest.approx(np.nanmean(columns, axis=0), abs=1e-12), key
-        assert said["std"] == pytest.approx(np.nanstd(columns, axis=0), rel=1e-9), key
-        assert said["count"] == np.sum(~np.isnan(columns), axis=0).tolist()
+        stated = statistics[key]
+        assert stated["mean"] == pytest.approx(np.nanmean(columns, axis=0), abs=1e-12), key
+        assert stated["std"] == pytest.approx(np.nanstd(columns, axis=0), rel=1e-9), key
+        assert stated["count"] == np.sum(~np.isnan(columns), axis=0).tolist()
     change = np.diff(data["pose"], axis=0)
     inside = np.setdiff1d(np.arange(1, frames), data["frame_start"])
     assert data["change"][inside] == pytest.approx(change[inside - 1], nan_ok=True)

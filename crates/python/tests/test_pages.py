@@ -24,11 +24,11 @@ def shown(element: str) -> str:
 def test_solutions_plans_and_verdicts_show_their_pages(task: pushplan.Task) -> None:
     solution = pushplan.solve(task, effort="draft")
     assert solution.best is not None and solution.best.verdict is not None
-    for what in (solution, solution.best, solution.best.verdict):
-        page = what.page()
+    for answer in (solution, solution.best, solution.best.verdict):
+        page = answer.page()
         assert page.startswith("<!DOCTYPE html>")
         assert "default-src 'none'" in page and task.name in page
-        assert shown(what._repr_html_()) == page
+        assert shown(answer._repr_html_()) == page
         assert len(page) < 200_000
 
 

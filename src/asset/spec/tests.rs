@@ -27,7 +27,7 @@ fn every_key_is_explained_and_every_range_holds_something() {
                 for key in *keys {
                     assert!(key.meaning.ends_with('.'), "{}", key.name);
                     let optional = key.meaning.to_lowercase().contains("default");
-                    assert_eq!(optional, !key.required, "{} says its default", key.name);
+                    assert_eq!(optional, !key.required, "{} states its default", key.name);
                 }
             }
             Value::Number(range) | Value::Count(range) => {

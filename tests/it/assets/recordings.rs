@@ -91,7 +91,7 @@ fn a_simulation_written_as_a_recording_reads_back_and_replays_to_itself() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("two-pushes.recording.json");
     recording.write(&path).expect("a writable folder");
-    let read = Recording::load(&path).expect("what is written can be read");
+    let read = Recording::load(&path).expect("a readable recording");
     assert_eq!(read.scene, scene);
     assert_eq!(read.tool.parts(), recording.tool.parts());
     assert_eq!(read.frames.len(), recording.frames.len());
@@ -139,7 +139,7 @@ fn frictions_of_pairs_are_read_and_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("r.json");
     read.write(&path).expect("a writable folder");
-    let again = Recording::load(&path).expect("what is written can be read");
+    let again = Recording::load(&path).expect("a readable recording");
     assert_eq!(again.scene.frictions, read.scene.frictions);
 }
 

@@ -105,7 +105,7 @@ fn deep_nesting_is_refused_at_once_with_its_place() {
         ("behind a wrong float", format!("[!!float x, {}", "{a: ".repeat(60_000)), (1, 2)),
         ("in a second document", format!("a: 1\n---\n{}", "{a: ".repeat(60_000)), (2, 1)),
         ("behind much that is shallow", shallow + "- " + &"{a: ".repeat(50_000), (3001, 127)),
-        ("behind what is broken", format!("a: ]\n{}", "{a: ".repeat(60_000)), (1, 4)),
+        ("behind an error", format!("a: ]\n{}", "{a: ".repeat(60_000)), (1, 4)),
     ];
     for (what, text, place) in texts {
         let begun = Instant::now();

@@ -59,7 +59,7 @@ fn helped(
         return Err(format!("`{advice}` is not in\n{fault}{text}"));
     }
     let taken = import(followed, what, then);
-    taken.map(|_| ()).map_err(|faults| format!("as `{advice}` says:\n{faults}{followed}"))
+    taken.map(|_| ()).map_err(|faults| format!("after `{advice}`:\n{faults}{followed}"))
 }
 
 const BOX: &str = "<geom type='box' size='.05 .04 .05'/>";
@@ -225,8 +225,8 @@ fn mujoco_writes_out_what_is_not_read() {
     let command = command.replace("PYTHON", &python);
     let done = Command::new("sh").args(["-c", &command]).current_dir(&folder).status();
     assert!(done.expect("a shell").success(), "{command}");
-    let flat = std::fs::read_to_string(folder.path().join("flat.xml")).expect("what it writes");
+    let flat = std::fs::read_to_string(folder.path().join("flat.xml")).expect("a written file");
     let (model, ..) = parse(&flat, "flat.xml").expect("a model");
-    let made = objects(&model, "flat.xml", &Wanted::default()).expect("as the advice says");
+    let made = objects(&model, "flat.xml", &Wanted::default()).expect("the advice helps");
     assert_eq!(made.value.task.scene.objects.len(), 2);
 }

@@ -87,7 +87,7 @@ fn what_moves_otherwise_is_a_fault_or_a_note() {
     let mimic = slide("<mimic joint='k'/>", "lower='-1' upper='1'", "revolute");
     let fault = taken(&mimic, &all()).expect_err("a fault");
     assert!(fault.contains("follows `k` (<mimic>)") && fault.contains("remove <mimic>"));
-    taken(&mimic.replace("<mimic joint='k'/>", ""), &all()).expect("as the advice says");
+    taken(&mimic.replace("<mimic joint='k'/>", ""), &all()).expect("the advice helps");
     let limits = |low: &str, high: &str| {
         let text = slide("", &format!("lower='{low}' upper='{high}'"), "revolute");
         let (task, notes) = taken(&text, &all()).expect("a task");
@@ -126,7 +126,7 @@ fn only_what_was_chosen_may_refuse() {
     .replace("</mujoco>", "<contact><exclude body1='upper' body2='lower'/></contact></mujoco>");
     let fault = taken(&text, &all()).expect_err("faults");
     assert!(fault.contains("has a spring") && fault.contains("select bodies with --body"));
-    let (task, notes) = taken(&text, &body("block")).expect("as the advice says");
+    let (task, notes) = taken(&text, &body("block")).expect("the advice helps");
     assert_eq!(task.scene.objects.len(), 1);
     for note in [
         "omitted, with all bodies attached to them: upper",
@@ -178,7 +178,7 @@ fn bodies_stand_freely_where_somebody_says_so_and_are_set_down() {
                 <geom type='box' size='.05 .04 .03' density='100'/></body></body></worldbody></mujoco>";
     let fault = taken(held, &all()).expect_err("a fault");
     assert!(fault.contains("--free object makes it free"), "{fault}");
-    let (task, _) = taken(held, &free("object")).expect("as the advice says");
+    let (task, _) = taken(held, &free("object")).expect("the advice helps");
     assert!((task.scene.objects[0].mass - 0.048).abs() < 1e-12);
     let fault = taken(held, &body("object")).expect_err("a fault");
     assert!(fault.contains("--free object"), "{fault}");
@@ -229,7 +229,7 @@ fn a_centre_of_mass_outside_is_told_and_one_off_an_axis_makes_a_prism() {
     let text = urdf(&link("a", "").replace("<inertial>", "<inertial><origin xyz='0.2 0 0'/>"));
     let fault = taken(&text, &all()).expect_err("a fault");
     assert!(fault.contains("200.0 mm from the middle, outside its outline"), "{fault}");
-    taken(&text.replace("0.2 0 0'", "0.02 0 0'"), &all()).expect("as the advice says");
+    taken(&text.replace("0.2 0 0'", "0.02 0 0'"), &all()).expect("the advice helps");
     let can = mjcf(
         "<body name='can' pos='.5 0 .05'><freejoint/>\
          <inertial mass='.4' pos='.01 0 0' diaginertia='1e-4 1e-4 1e-4'/>\
@@ -248,7 +248,7 @@ fn what_weighs_nothing_weighs_what_it_is_made_of() {
     let fault = taken(&text, &all()).expect_err("a fault");
     assert!(fault.contains("`a` has no mass") && fault.contains("--density 700"), "{fault}");
     let wood = Wanted { density: Some(700.0), ..all() };
-    let (task, _) = taken(&text, &wood).expect("as the advice says");
+    let (task, _) = taken(&text, &wood).expect("the advice helps");
     assert!((task.scene.objects[0].mass - 0.336).abs() < 1e-12);
     // Masses of parts below a task's minimum are raised, and the total mass is kept.
     let thin = mjcf(

@@ -116,7 +116,7 @@ fn meshes_and_includes_lie_beside_the_file_or_below_what_is_named() {
         "{fault}"
     );
     let root = Reading { root: Some("".into()), ..Reading::default() };
-    taken_of(&files, &root, &all()).expect("as the advice says");
+    taken_of(&files, &root, &all()).expect("the advice helps");
     let circle = "<mujoco><include file='a.xml'/></mujoco>";
     let circle = taken_of(&[("a.xml", circle.as_bytes())], &Reading::default(), &all());
     assert!(circle.expect_err("a fault").contains("include each other"));

@@ -18,7 +18,7 @@ use super::{LARGEST, SHOWN, data, error_at, exit_code, follow, number};
 #[test]
 fn a_run_is_played_with_what_was_predicted_and_believed() {
     let trace = run("everything-hidden", 2);
-    assert!(trace.steps.len() >= 3, "several pushes are to be played");
+    assert!(trace.steps.len() >= 3, "too few pushes to play");
     let real = really(&trace);
     let folder = TempDir::new().expect("a folder");
     let recipe = Recipe { command: "pushplan run".to_owned(), python: String::new() };

@@ -215,7 +215,7 @@ impl PairBelief {
 
     /// Returns the rank of a pair among pairs whose joints would close a loop.
     ///
-    /// All objects of a rigid group move alike relative to a third, so fixed joints rank first.
+    /// Objects of a rigid group all move alike relative to a third, so fixed joints rank first.
     /// Then come joints whose anchor or axis is regular for the pair. The regulator already
     /// accounts for this.
     pub fn rank(&self) -> f64 {

@@ -18,7 +18,7 @@ fn helped(refused: Folder<'_>, advice: &str, followed: Folder<'_>) {
     };
     let fault = taken(refused).expect_err(advice);
     assert!(fault.contains(advice), "{advice}\nnot in\n{fault}");
-    taken(followed).unwrap_or_else(|faults| panic!("as `{advice}` says:\n{faults}"));
+    taken(followed).unwrap_or_else(|faults| panic!("after `{advice}`:\n{faults}"));
 }
 
 #[test]

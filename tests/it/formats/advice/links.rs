@@ -111,5 +111,5 @@ fn links_and_joints_of_urdf_become_what_the_advice_says() {
     }
     let fault = import(&parted(outside), O, &Wanted::default()).expect_err("a fault");
     assert!(fault.contains("or remove <inertial> and give --density"), "{fault}");
-    import(&parted(""), O, &wood).expect("as the advice says");
+    import(&parted(""), O, &wood).expect("the advice helps");
 }

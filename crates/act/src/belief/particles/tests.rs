@@ -21,7 +21,7 @@ fn what_is_known_stays_and_what_is_unknown_spreads_around_what_is_stated() {
     let share = each.iter().filter(within).count() as f64 / each.len() as f64;
     assert!((0.75..=1.0).contains(&share), "{share}");
     let mean = particles.mean(&scene, stated.clone());
-    assert!((mean.masses[1] - 1.0).abs() < 1e-12, "the middle is what is stated");
+    assert!((mean.masses[1] - 1.0).abs() < 1e-12, "the mean equals the stated mass");
     assert!(Particles::new(2, Unknowns { joints: true, ..Unknowns::NONE }, 1).is_empty());
 }
 
@@ -39,7 +39,7 @@ fn weighing_moves_the_mean_to_what_is_likely_and_narrows_it() {
     let after = particles.numbers(&scene, &stated);
     let [mean, sd] = after.masses[0];
     assert!((mean - 0.6).abs() < 0.05 && sd < 0.5 * before.masses[0][1], "{mean} {sd}");
-    assert!(after.masses[1][1] > 0.4 * before.masses[1][1], "nothing was said of the other");
+    assert!(after.masses[1][1] > 0.4 * before.masses[1][1], "the other mass was not observed");
     let same = particles.numbers(&scene, &stated);
     particles.weigh(&[f64::NAN; COUNT]);
     assert_eq!(particles.numbers(&scene, &stated).masses.len(), same.masses.len());
