@@ -70,7 +70,9 @@ class Node:
         Options of `pushplan.solve`.
     """
 
-    def __init__(self, task: _native.Task, *, name: str = "pushplan", tries: int = 8, **solve: Any) -> None:
+    def __init__(
+        self, task: _native.Task, *, name: str = "pushplan", tries: int = 8, **solve: Any
+    ) -> None:
         ros = _ros()
         self.task, self.tries, self.options = task, tries, solve
         self.node = ros["Node"](name)
@@ -86,7 +88,10 @@ class Node:
         for thing in task.objects:
             topic = "~/pose/" + re.sub(r"\W", "_", thing)
             self.node.create_subscription(
-                ros["PoseStamped"], topic, lambda message, thing=thing: self._sight(thing, message), 10,
+                ros["PoseStamped"],
+                topic,
+                lambda message, thing=thing: self._sight(thing, message),
+                10,
                 callback_group=group,
             )
         self.node.create_subscription(ros["String"], "~/done", self._done, 10, callback_group=group)
@@ -94,7 +99,11 @@ class Node:
         # Late subscribers do not receive old motions.
         self.path = self.node.create_publisher(ros["Path"], "~/path", 10)
         self.trajectory = self.node.create_publisher(ros["JointTrajectory"], "~/trajectory", 10)
-        for service, answer in [("solve", self._solve), ("run", self._run), ("cancel", self._cancel)]:
+        for service, answer in [
+            ("solve", self._solve),
+            ("run", self._run),
+            ("cancel", self._cancel),
+        ]:
             self.node.create_service(ros["Trigger"], f"~/{service}", answer, callback_group=group)
         if ros["Push"] is not None:
             self.action = ros["ActionServer"](
@@ -203,7 +212,10 @@ class Node:
             return self.task
         task = _native.Task.parse(goal.task)
         if task.objects != self.task.objects:
-            raise ValueError(f"the task must have the node's objects {', '.join(self.task.objects)}, found {', '.join(task.objects)}")
+            raise ValueError(
+                f"the task must have the node's objects {', '.join(self.task.objects)}, found "
+                f"{', '.join(task.objects)}"
+            )
         return task
 
     # Run.
@@ -213,7 +225,9 @@ class Node:
         try:
             return self._publish("ended", **self._run_through(task))
         except Stopped as stop:
-            return self._publish("cancelled" if self._cancelled.is_set() else "failed", why=str(stop))
+            return self._publish(
+                "cancelled" if self._cancelled.is_set() else "failed", why=str(stop)
+            )
         except Exception as error:  # noqa: BLE001 - the waiting client must receive the error
             return self._publish("failed", why=f"{type(error).__name__}: {error}")
         finally:
@@ -252,7 +266,10 @@ class Node:
                     return task.at(np.array([self._seen[thing][1] for thing in task.objects]))
                 self._go_on()
                 if time.monotonic() > until:
-                    raise Stopped(f"no pose of {', '.join(missing)} within {PATIENCE:.0f} s; check the topics ~/pose/OBJECT")
+                    raise Stopped(
+                        f"no pose of {', '.join(missing)} within {PATIENCE:.0f} s; check the "
+                        "topics ~/pose/OBJECT"
+                    )
                 self._changed.wait(0.1)
 
     def _planned(self, task: _native.Task) -> _native.Solution:
@@ -316,7 +333,8 @@ class Node:
         message = self.ros["JointTrajectory"](joint_names=list(joints["joints"]))
         for point in joints["points"]:
             there = self.ros["JointTrajectoryPoint"](
-                positions=list(map(float, point["positions"])), velocities=list(map(float, point["velocities"]))
+                positions=list(map(float, point["positions"])),
+                velocities=list(map(float, point["velocities"])),
             )
             nanos = round(point["time"] * 1e9)
             there.time_from_start.sec, there.time_from_start.nanosec = divmod(nanos, 10**9)
@@ -341,7 +359,9 @@ def _ros() -> dict[str, Any]:
         from std_srvs.srv import Trigger  # type: ignore[import-not-found,import-untyped,unused-ignore]
         from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint  # type: ignore[import-not-found,import-untyped,unused-ignore]
     except ImportError as error:
-        raise ImportError("the node needs ROS 2: source an installation, or pip install 'pushplan[ros]'") from error
+        raise ImportError(
+            "the node needs ROS 2: source an installation, or pip install 'pushplan[ros]'"
+        ) from error
     try:
         from pushplan_interfaces.action import Push  # type: ignore[import-not-found,import-untyped,unused-ignore]
     except ImportError:
@@ -352,11 +372,15 @@ def _ros() -> dict[str, Any]:
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Runs the node for a task file."""
-    parser = argparse.ArgumentParser(prog="python -m pushplan.ros", description="ROS 2 node that plans and carries out a task.")
+    parser = argparse.ArgumentParser(
+        prog="python -m pushplan.ros", description="ROS 2 node that plans and carries out a task."
+    )
     parser.add_argument("task", help="task file")
     parser.add_argument("--name", default="pushplan", help="name of the node [default: pushplan]")
     parser.add_argument("--effort", default="standard", choices=["draft", "standard", "thorough"])
-    parser.add_argument("--tries", type=int, default=8, help="maximum number of plans in a run [default: 8]")
+    parser.add_argument(
+        "--tries", type=int, default=8, help="maximum number of plans in a run [default: 8]"
+    )
     options = parser.parse_args(arguments)
     import rclpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
 

@@ -119,7 +119,12 @@ def test_a_tool_of_ones_own_is_chosen_from() -> None:
             "friction": 0.4,
             "parts": [
                 {"name": "handle", "size": [0.42, 0.04, 0.05], "position": [0.26, 0.0]},
-                {"name": "bar", "size": [0.16, 0.04, 0.05], "position": [0.43, 0.08], "yaw_deg": 90},
+                {
+                    "name": "bar",
+                    "size": [0.16, 0.04, 0.05],
+                    "position": [0.43, 0.08],
+                    "yaw_deg": 90,
+                },
             ],
         }
     )

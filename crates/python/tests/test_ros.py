@@ -44,17 +44,25 @@ class Robot:
         self.node.create_subscription(parts["Path"], "/pushplan/path", self.push, 10)
         self.states: list[dict[str, Any]] = []
         self.node.create_subscription(
-            parts["String"], "/pushplan/feedback", lambda message: self.states.append(json.loads(message.data)), 10
+            parts["String"],
+            "/pushplan/feedback",
+            lambda message: self.states.append(json.loads(message.data)),
+            10,
         )
         self.stops = 0
-        self.node.create_subscription(parts["JointTrajectory"], "/pushplan/trajectory", self.stop, 10)
+        self.node.create_subscription(
+            parts["JointTrajectory"], "/pushplan/trajectory", self.stop, 10
+        )
         self.node.create_timer(0.05, self.publish_poses)
 
     def publish_poses(self) -> None:
         message = self.parts["PoseStamped"]()
         x, y, heading = map(float, self.poses[0])
         message.pose.position.x, message.pose.position.y = x, y
-        message.pose.orientation.z, message.pose.orientation.w = math.sin(heading / 2), math.cos(heading / 2)
+        message.pose.orientation.z, message.pose.orientation.w = (
+            math.sin(heading / 2),
+            math.cos(heading / 2),
+        )
         self.out.publish(message)
 
     def stop(self, message: Any) -> None:
@@ -65,9 +73,13 @@ class Robot:
             return
         pushes = []
         for a, b in zip(path.poses[::2], path.poses[1::2]):
-            way = np.array([b.pose.position.x - a.pose.position.x, b.pose.position.y - a.pose.position.y])
+            way = np.array(
+                [b.pose.position.x - a.pose.position.x, b.pose.position.y - a.pose.position.y]
+            )
             start = (a.pose.position.x, a.pose.position.y)
-            pushes.append(pushplan.Push(start, math.atan2(way[1], way[0]), float(np.hypot(*way)), 0.1))
+            pushes.append(
+                pushplan.Push(start, math.atan2(way[1], way[0]), float(np.hypot(*way)), 0.1)
+            )
         yaw = 2 * math.atan2(path.poses[0].pose.orientation.z, path.poses[0].pose.orientation.w)
         plan = pushplan.Plan.of(self.task.at(self.poses), "paddle", pushes, grip_yaw=yaw)
         self.poses = np.array(pushplan.predict(plan, "planar").poses[-1])
@@ -209,7 +221,8 @@ class Client:
         assert self.client.wait_for_server(timeout_sec=20)
         self.feedback = []
         asked = self.client.send_goal_async(
-            self.kind.Goal(task=task), feedback_callback=lambda message: self.feedback.append(message.feedback.state)
+            self.kind.Goal(task=task),
+            feedback_callback=lambda message: self.feedback.append(message.feedback.state),
         )
         wait(asked.done, 60)
         return asked.result()
@@ -222,7 +235,10 @@ class Client:
         wait(result.done, 60)
         names = {GoalStatus.STATUS_SUCCEEDED: "succeeded", GoalStatus.STATUS_CANCELED: "cancelled"}
         found = result.result()
-        return names.get(found.status, "aborted"), {**json.loads(found.result.report), "reached": found.result.reached}
+        return names.get(found.status, "aborted"), {
+            **json.loads(found.result.report),
+            "reached": found.result.reached,
+        }
 
 
 def test_a_goal_has_feedback_a_result_and_is_cancelled(types: Any, context: None) -> None:
@@ -232,7 +248,11 @@ def test_a_goal_has_feedback_a_result_and_is_cancelled(types: Any, context: None
     assert goal.accepted
     status, report = client.ends(goal)
     assert status == "succeeded" and report["reached"] and report["state"] == "ended", report
-    assert client.feedback[0] == "looked" and client.feedback[-1] == "ended" and {"planned", "sent"} <= set(client.feedback)
+    assert (
+        client.feedback[0] == "looked"
+        and client.feedback[-1] == "ended"
+        and {"planned", "sent"} <= set(client.feedback)
+    )
     assert np.linalg.norm(robot.poses[0, :2] - [0.55, 0.1]) <= 0.02
     # Another goal for the same can, and one for an object that the node does not observe.
     further: Any = json.loads(json.dumps(TASK))
