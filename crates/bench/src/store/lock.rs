@@ -131,7 +131,8 @@ fn note_another_machine(dir: &Path, before: Option<String>, progress: &dyn Progr
     if let Some(writer) = before.filter(|writer| !writer.ends_with(&here)) {
         progress.note(&format!(
             "{writer} was the last to write to {} and did not report its end; if it still runs, \
-             stop one of the two processes, because locks of this folder do not work across machines",
+             stop one of the two processes, because locks of this folder do not work across \
+             machines",
             dir.display()
         ));
     }

@@ -34,7 +34,8 @@ pub fn page(extremes: &Extremes, command: &str) -> String {
     let doubts: String = doubts.iter().map(|doubt| format!("- \u{2020} {doubt}\n")).collect();
     format!(
         "# At the extremes\n\n{}.\n\n```sh\n{command}\n```\n\n{RULE}\n{}\n{}\n{doubts}\n\
-         ## Tasks\n\nEach row is a random solvable task with an extreme value, at draft effort.\n\n{}",
+         ## Tasks\n\nEach row is a random solvable task with an extreme value, at draft \
+         effort.\n\n{}",
         line(extremes),
         yardstick_table(&extremes.yardsticks).to_markdown(),
         cell_table(&extremes.cells).to_markdown(),
