@@ -84,8 +84,8 @@ use crate::{arguments, errors, work};
 /// >>> print(solution.status, solution.best)
 #[pyfunction]
 #[pyo3(signature = (task, tools = None, *, effort = "standard", model = None,
-                    out_of_range = "warn", seed = 0, replays = None, robustness = None, time_limit = None, fit = None,
-                    threads = 0))]
+                    out_of_range = "warn", seed = 0, replays = None, robustness = None,
+                    time_limit = None, fit = None, threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn solve(
     py: Python<'_>,
@@ -139,8 +139,8 @@ pub fn stated(task: Arc<Task>, fit: Option<&TableFit>) -> Arc<Task> {
 ///     For the first task that `solve` would reject.
 #[pyfunction]
 #[pyo3(signature = (tasks, tools = None, *, effort = "standard", model = None,
-                    out_of_range = "warn", seed = 0, replays = None, robustness = None, time_limit = None, fit = None,
-                    threads = 0))]
+                    out_of_range = "warn", seed = 0, replays = None, robustness = None,
+                    time_limit = None, fit = None, threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn solve_all(
     py: Python<'_>,
