@@ -135,14 +135,14 @@ def main() -> None:
         world = World(task, int(rng.integers(2**32)))
         film = Film() if k == 0 and options.film else None
         world.watch = film.watch if film else None
-        said = attempt(task, world)
+        outcome = attempt(task, world)
         if film:
             film.save(str(options.film))
         off = float(np.linalg.norm(world.poses[0, :2] - task.goal_position))
         true = bool(off <= TOLERANCE and np.isfinite(world.poses).all())
-        reached += said["claims"] == "reached" and true
-        false += said["claims"] == "reached" and not true
-        print(json.dumps({"scene": k, **said, "truly_mm": 1e3 * off, "true": true}), flush=True)
+        reached += outcome["claims"] == "reached" and true
+        false += outcome["claims"] == "reached" and not true
+        print(json.dumps({"scene": k, **outcome, "truly_mm": 1e3 * off, "true": true}), flush=True)
     print(json.dumps({"scenes": options.scenes, "reached": reached, "falsely_reached": false}))
 
 

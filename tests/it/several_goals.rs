@@ -68,7 +68,7 @@ fn a_list_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
 }
 
 #[test]
-fn what_makes_no_sense_in_a_list_is_a_fault_with_its_place() {
+fn invalid_lists_are_errors_with_location() {
     let twice = faults(|yaml| yaml.replace("object: box, position", "object: can, position"));
     assert!(twice.contains("`can` has two goals"), "{twice}");
     let unknown = faults(|yaml| yaml.replace("object: box, position", "object: bx, position"));

@@ -114,7 +114,7 @@ impl<M: EffectModel> EffectModel for Counted<M> {
 }
 
 #[test]
-fn what_decides_mends_what_screens_and_has_the_last_word() {
+fn the_final_model_corrects_the_screening_model() {
     let (task, library) = shipped("pull-back.yaml");
     let planar = || Simulated::new(Simulator::planar());
     let off = Vector::new(0.01, 0.015);
@@ -275,7 +275,7 @@ impl Progress for Recorder {
 }
 
 #[test]
-fn every_shipped_task_ends_as_its_description_says() {
+fn every_shipped_task_ends_as_described() {
     let library = ToolLibrary::embedded().unwrap();
     let planner = planner();
     for path in crate::assets::shipped_tasks() {

@@ -103,14 +103,14 @@ def set_at(column: int, value: Callable[[int, float], float]) -> list[Row]:
         ),
     ],
 )
-def test_what_a_log_cannot_be_is_said(
+def test_invalid_logs_are_reported(
     tmp_path: Path, table: list[Row], stated: dict[str, Any], message: str
 ) -> None:
     with pytest.raises(ValueError, match=message):
         logs.read_csv(written(tmp_path / "log.csv", table), **{**STATED, **stated})
 
 
-def test_stale_poses_and_small_angles_are_said(tmp_path: Path) -> None:
+def test_stale_poses_and_small_angles_are_reported(tmp_path: Path) -> None:
     def frozen(k: int, row: Row) -> Row:
         return [*row[:3], *rows()[60][3:]] if 60 <= k < 80 else row
 

@@ -123,7 +123,7 @@ def drawn(rng: np.random.Generator) -> tuple[Any, Any]:
     return eye, at
 
 
-def test_rendered_tags_are_found_within_what_is_said(tmp_path: Path) -> None:
+def test_rendered_tags_are_found_within_the_stated_error(tmp_path: Path) -> None:
     task = pushplan.Task.from_dict(TASK)
     # Not in the set from which poses.PIXELS was chosen.
     rng = np.random.default_rng(1000)

@@ -192,7 +192,7 @@ mod tests {
     use pushplan::{outcome::Perturbation, scene::State};
 
     #[test]
-    fn a_warning_of_both_engines_is_said_once() {
+    fn a_warning_of_both_engines_is_reported_once() {
         let landed = || Warning::SetDownOn { object: "can".to_owned(), stroke: 1 };
         let toppled = Warning::Toppled { object: "can".to_owned() };
         let outcome = Outcome { state: State::default(), goals: Vec::new(), reached: false };

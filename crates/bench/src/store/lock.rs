@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lock_left_behind_is_taken_and_told_if_it_is_of_another_machine() {
+    fn a_stale_lock_is_taken_and_reported_if_it_is_from_another_machine() {
         let folder = tempfile::tempdir().expect("a folder");
         for (left, note) in [
             (format!("process 1 on {}\n", host()), None),
