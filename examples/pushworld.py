@@ -222,7 +222,9 @@ def task_of(text: str, name: str, pushes: int = 6) -> pushplan.Task:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
-    parser.add_argument("puzzles", nargs="*", type=Path, help="puzzle files; by default a built-in puzzle")
+    parser.add_argument(
+        "puzzles", nargs="*", type=Path, help="puzzle files; by default a built-in puzzle"
+    )
     parser.add_argument("--out", type=Path, default=Path("pushworld"), help="folder for the files")
     parser.add_argument("--pushes", type=int, default=6, help="maximum number of pushes of a plan")
     chosen = parser.parse_args()

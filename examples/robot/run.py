@@ -40,12 +40,18 @@ def drawn(rng: np.random.Generator, urdf: Path) -> pushplan.Task:
 
     def thing(name: str, at: Any) -> dict[str, Any]:
         if rng.random() < 0.5:
-            shape: Any = {"cylinder": {"radius": rng.uniform(0.036, 0.05), "height": rng.uniform(0.06, 0.10)}}
+            shape: Any = {
+                "cylinder": {"radius": rng.uniform(0.036, 0.05), "height": rng.uniform(0.06, 0.10)}
+            }
         else:
             shape = {"cuboid": {"size": [*rng.uniform(0.075, 0.13, 2), rng.uniform(0.05, 0.08)]}}
         return {
-            "name": name, "shape": shape, "mass": rng.uniform(0.2, 0.8), "friction": rng.uniform(0.3, 0.5),
-            "position": at, "yaw_deg": rng.uniform(-180, 180),
+            "name": name,
+            "shape": shape,
+            "mass": rng.uniform(0.2, 0.8),
+            "friction": rng.uniform(0.3, 0.5),
+            "position": at,
+            "yaw_deg": rng.uniform(-180, 180),
         }
 
     while True:
@@ -56,16 +62,31 @@ def drawn(rng: np.random.Generator, urdf: Path) -> pushplan.Task:
         if not 0.36 < np.linalg.norm(goal) < 0.66 or abs(math.atan2(goal[1], goal[0])) > 0.7:
             continue
         scene: Any = {"objects": [thing("goods", start.tolist())]}
-        aside = start + rng.uniform(0.16, 0.25) * np.array([math.cos(way + 1.8), math.sin(way + 1.8)])
+        aside = start + rng.uniform(0.16, 0.25) * np.array(
+            [math.cos(way + 1.8), math.sin(way + 1.8)]
+        )
         if rng.random() < 0.4:
             scene["objects"].append(thing("other", aside.tolist()))
         elif rng.random() < 0.4:
             scene["obstacles"] = [
-                {"name": "wall", "size": [0.03, 0.12, 0.08], "position": aside.tolist(), "yaw_deg": math.degrees(way)}
+                {
+                    "name": "wall",
+                    "size": [0.03, 0.12, 0.08],
+                    "position": aside.tolist(),
+                    "yaw_deg": math.degrees(way),
+                }
             ]
         task: Any = {
-            "name": "goods", "scene": scene, "tools": "all", "pushes": {"max_count": 2, "directions": 16},
-            "robot": {"urdf": str(urdf), "flange": "panda_link8", "tool_mount": {"length": 0.12}, "home": HOME},
+            "name": "goods",
+            "scene": scene,
+            "tools": "all",
+            "pushes": {"max_count": 2, "directions": 16},
+            "robot": {
+                "urdf": str(urdf),
+                "flange": "panda_link8",
+                "tool_mount": {"length": 0.12},
+                "home": HOME,
+            },
             "goal": {"object": "goods", "position": goal.tolist(), "tolerance": PLANNED},
         }
         try:
@@ -100,7 +121,12 @@ def main() -> None:
     parser.add_argument("--scenes", type=int, default=1)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--film", type=Path, help="file for an animation of the first scene (WebP)")
-    parser.add_argument("--urdf", type=Path, default=Path(__file__).with_name("panda.urdf"), help="URDF file of another Panda arm")
+    parser.add_argument(
+        "--urdf",
+        type=Path,
+        default=Path(__file__).with_name("panda.urdf"),
+        help="URDF file of another Panda arm",
+    )
     options = parser.parse_args()
     reached = false = 0
     for k in range(options.scenes):
@@ -109,14 +135,14 @@ def main() -> None:
         world = World(task, int(rng.integers(2**32)))
         film = Film() if k == 0 and options.film else None
         world.watch = film.watch if film else None
-        said = attempt(task, world)
+        outcome = attempt(task, world)
         if film:
             film.save(str(options.film))
         off = float(np.linalg.norm(world.poses[0, :2] - task.goal_position))
         true = bool(off <= TOLERANCE and np.isfinite(world.poses).all())
-        reached += said["claims"] == "reached" and true
-        false += said["claims"] == "reached" and not true
-        print(json.dumps({"scene": k, **said, "truly_mm": 1e3 * off, "true": true}), flush=True)
+        reached += outcome["claims"] == "reached" and true
+        false += outcome["claims"] == "reached" and not true
+        print(json.dumps({"scene": k, **outcome, "truly_mm": 1e3 * off, "true": true}), flush=True)
     print(json.dumps({"scenes": options.scenes, "reached": reached, "falsely_reached": false}))
 
 

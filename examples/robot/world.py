@@ -36,8 +36,11 @@ FIRST = 10
 #: Share of a tag's edge that is black, inside a white margin.
 BLACK = 0.7
 COLOURS = {
-    "table": [0.75, 0.72, 0.66, 1], "object": [0.80, 0.35, 0.25, 1], "obstacle": [0.35, 0.35, 0.35, 1],
-    "tool": [0.25, 0.45, 0.75, 1], "arm": [0.93, 0.93, 0.93, 1],
+    "table": [0.75, 0.72, 0.66, 1],
+    "object": [0.80, 0.35, 0.25, 1],
+    "obstacle": [0.35, 0.35, 0.35, 1],
+    "tool": [0.25, 0.45, 0.75, 1],
+    "arm": [0.93, 0.93, 0.93, 1],
 }
 #: Speed of the joints on the way home, rad/s.
 HOMEWARDS = 0.5
@@ -108,7 +111,9 @@ class World:
             body = self.data.body(f"object/{name}")
             turn = body.xmat.reshape(3, 3)
             upright = turn[2, 2] > math.cos(math.radians(5))
-            found.append([*body.xpos[:2], math.atan2(turn[1, 0], turn[0, 0]) if upright else math.nan])
+            found.append(
+                [*body.xpos[:2], math.atan2(turn[1, 0], turn[0, 0]) if upright else math.nan]
+            )
         return np.array(found)
 
     def _steer(self, places: Floats, speeds: Floats) -> None:
@@ -118,7 +123,9 @@ class World:
             self.watch(self.model, self.data)
 
     def _speed(self) -> float:
-        moving = np.array([self.data.qvel[joint.dofadr[0] : joint.dofadr[0] + 6] for joint in self.free])
+        moving = np.array(
+            [self.data.qvel[joint.dofadr[0] : joint.dofadr[0] + 6] for joint in self.free]
+        )
         return float((np.abs(moving[:, :3]).max(1) + 0.05 * np.abs(moving[:, 3:]).max(1)).max())
 
     def _at(self) -> npt.NDArray[np.int64]:
@@ -137,7 +144,13 @@ class World:
         for tag, (x, y) in TABLE.items():
             stick(spec, spec.worldbody, tag, EDGE, [x, y, 2e-4])
         for k, name in enumerate(self.task.objects):
-            stick(spec, spec.body(f"object/{name}"), FIRST + k, ON_OBJECTS, [0, 0, heights[name] / 2 + 2e-4])
+            stick(
+                spec,
+                spec.body(f"object/{name}"),
+                FIRST + k,
+                ON_OBJECTS,
+                [0, 0, heights[name] / 2 + 2e-4],
+            )
         for geom in spec.geoms:
             geom.rgba = COLOURS.get(geom.name.split("/")[0], geom.rgba)
             if geom.name == "obstacle/robot base":
@@ -156,8 +169,14 @@ class World:
         joints = [self.model.joint(k) for k in range(self.model.njnt)]
         names = [joint.name for joint in joints if joint.name.startswith("arm/")]
         self.joints = [self.model.joint(name).qposadr[0] for name in names]
-        self.servos = [[self.model.actuator(f"{name}/{of}").id for name in names] for of in ("position", "speed")]
-        self.free = [self.model.joint(self.model.body(f"object/{name}").jntadr[0]) for name in self.task.objects]
+        self.servos = [
+            [self.model.actuator(f"{name}/{of}").id for name in names]
+            for of in ("position", "speed")
+        ]
+        self.free = [
+            self.model.joint(self.model.body(f"object/{name}").jntadr[0])
+            for name in self.task.objects
+        ]
         if self.places is not None:
             self.data.qpos[self._at()] = self.places
         arm: Any = plan.task.to_dict()["robot"]
@@ -226,7 +245,10 @@ class Film:
     def save(self, path: str) -> None:
         """Writes the animation: WebP, GIF or APNG by the suffix, with OpenCV 4.11 or newer."""
         animation = cv2.Animation()
-        animation.frames, animation.durations = self.frames, [round(500 * self.EVERY)] * len(self.frames)
+        animation.frames, animation.durations = (
+            self.frames,
+            [round(500 * self.EVERY)] * len(self.frames),
+        )
         cv2.imwriteanimation(path, animation, [cv2.IMWRITE_WEBP_QUALITY, 70])
 
 

@@ -30,7 +30,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_moves_the_cursor_is_written_out() {
+    fn characters_that_move_the_cursor_are_escaped() {
         assert_eq!(
             printable("a\u{1b}[2Jb\u{9b}c\u{7f}\r\n"),
             "a\\u001b[2Jb\\u009bc\\u007f\\u000d\\u000a"

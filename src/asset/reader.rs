@@ -343,7 +343,8 @@ mod tests {
 
     #[test]
     fn sound_texts_may_be_cut_anywhere() {
-        let text = "a: 'x: [{ - y'\nb: see [1]\nc: # {\n  - |\n    [ {\n  - \"\\\"[ \"\n? d\n: [e: {f: 1}]\n";
+        let text = "a: 'x: [{ - y'\nb: see [1]\nc: # {\n  - |\n    [ {\n  - \"\\\"[ \"\n\
+                    ? d\n: [e: {f: 1}]\n";
         assert!(Node::parse(Source::yaml("t", text)).is_ok());
         for cut in cuts(text, 1) {
             let part = Source::yaml("t", &text[..cut]);

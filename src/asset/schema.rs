@@ -124,7 +124,10 @@ fn schema(value: &Value) -> Json {
         Value::Switch => json!({"type": "boolean"}),
         Value::Text => json!({"type": "string"}),
         Value::Name => {
-            json!({"type": "string", "minLength": 1, "maxLength": LONGEST_NAME, "pattern": name_pattern()})
+            json!({
+                "type": "string", "minLength": 1, "maxLength": LONGEST_NAME,
+                "pattern": name_pattern(),
+            })
         }
         Value::Word(words) => json!({"enum": words}),
         Value::Number(range) => json!({

@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_pair_has_one_id_and_every_id_tells_its_pair() {
+    fn every_pair_has_one_id_and_every_id_one_pair() {
         let pairs = Pairs::new(4, 2, 3);
         let mut ids = HashSet::new();
         for object in (0..4).map(SceneIndex) {

@@ -89,7 +89,8 @@ pub enum WeightsError {
     },
     /// Bytes that differ from those written.
     #[error(
-        "the weights file is damaged: its checksum is {found}, but was {written} when it was written"
+        "the weights file is damaged: its checksum is {found}, but was {written} when it was \
+         written"
     )]
     Checksum {
         /// Checksum in the file.

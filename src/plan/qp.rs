@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_problem_of_ours_has_a_status_too() {
+    fn unsupported_problems_also_have_a_status() {
         let mut solver = QpSolver::default();
         // Without constraints and curvature, the objective has no lower bound.
         let free = QpProblem { p: vec![vec![0.0]], q: vec![1.0], a: vec![], b: vec![] };

@@ -134,7 +134,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_stated_of_a_pair_counts_either_way_round_and_for_that_pair_alone() {
+    fn a_pair_friction_is_symmetric_and_applies_to_its_pair_only() {
         let object = |name: &str| Object::cylinder(name, 0.05, 0.1).friction(0.4);
         let scene = Scene::new([object("a"), object("b"), object("c")]).on_table(0.6);
         let physics = Physics::stated(&scene).with_pair(0, Surface::Object(1), 0.02).with_pair(

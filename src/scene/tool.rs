@@ -177,7 +177,8 @@ impl Tool {
     /// ```
     /// use pushplan::{Blade, Tool};
     ///
-    /// let blade = Blade { length: 0.12, width: 0.006, thickness: 0.002, friction: Tool::FRICTION };
+    /// let friction = Tool::FRICTION;
+    /// let blade = Blade { length: 0.12, width: 0.006, thickness: 0.002, friction };
     /// let screwdriver = Tool::with_blade("my-screwdriver", blade);
     /// assert!(screwdriver.blade().is_some() && screwdriver.parts().is_empty());
     /// ```

@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn what_slides_feels_all_of_the_friction_and_what_nearly_rests_is_stopped() {
+    fn sliding_objects_have_full_friction_and_nearly_resting_objects_stop() {
         let body = Inertia { mass: 2.0, spin: 0.01 };
         let friction = |speed: f64, pressed: f64| {
             let velocity = Twist { linear: Vector::new(speed, 0.0), angular: 0.0 };

@@ -188,7 +188,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_between_two_walls_is_squeezed_and_what_leans_on_two_sides_of_a_corner_is_not() {
+    fn objects_between_two_walls_are_squeezed_and_objects_in_a_corner_are_not() {
         let inside = |wall: usize, depth: f64, out: Vector| Overlap {
             object: 0,
             with: Body::Obstacle(wall),

@@ -49,7 +49,7 @@ mod tests {
     }
 
     #[test]
-    fn what_begins_like_a_refuted_plan_is_known_by_directions_and_lengths_alone() {
+    fn prefixes_of_refuted_plans_are_recognised_by_directions_and_lengths() {
         let pattern = PushPattern::of(&candidate(&[(3.1, 0.2), (1.5, 0.1)]).pushes);
         // Directions wrap around, and further pushes do not matter.
         assert!(pattern.begins(&candidate(&[(-3.1, 0.21), (1.4, 0.09), (0.0, 0.3)])));

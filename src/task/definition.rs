@@ -101,7 +101,8 @@ impl Task {
     ///
     /// let [can, cup] = ["can", "cup"].map(|name| Object::cylinder(name, 0.04, 0.10));
     /// let scene = Scene::new([can.at(0.5, 0.1, 0.0), cup.at(0.5, -0.1, 0.0)]);
-    /// let task = Task::new("both", scene, Robot::reaching(0.1, 0.9), Goal::new(0, [0.7, 0.1], 0.02))
+    /// let robot = Robot::reaching(0.1, 0.9);
+    /// let task = Task::new("both", scene, robot, Goal::new(0, [0.7, 0.1], 0.02))
     ///     .and(Goal::new(1, [0.7, -0.1], 0.02));
     /// assert_eq!(task.goals.len(), 2);
     /// ```

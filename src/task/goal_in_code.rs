@@ -141,7 +141,8 @@ impl Goal {
     /// let goal = Goal::of(0).facing(3.5, 0.1);
     /// let off = |goal: &Goal| goal.turned(&scene.start()).expect("a heading");
     /// assert!((off(&goal) - (std::f64::consts::TAU - 3.5)).abs() < 1e-9, "to the right");
-    /// assert!((off(&goal.within_limits(&scene)) + 3.5).abs() < 1e-9, "it turns to the left alone");
+    /// let within = goal.within_limits(&scene);
+    /// assert!((off(&within) + 3.5).abs() < 1e-9, "only a rotation to the left is possible");
     /// ```
     pub fn within_limits(mut self, scene: &Scene) -> Self {
         let facing = self.demands.iter_mut().filter_map(Demand::facing_mut);

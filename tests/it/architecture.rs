@@ -174,7 +174,7 @@ fn rooms_import_only_from_rooms_before_them() {
 }
 
 #[test]
-fn rooms_import_only_what_their_row_says() {
+fn rooms_import_only_the_modules_of_their_row() {
     let mut wrong = Vec::new();
     for (folder, _, rooms) in HOUSES {
         let mut used = HashSet::new();
@@ -205,7 +205,7 @@ fn rooms_import_only_what_their_row_says() {
 }
 
 #[test]
-fn extras_import_only_what_their_row_says() {
+fn extras_import_only_the_modules_of_their_row() {
     let mut wrong = Vec::new();
     for (place, (name, crates, rooms)) in EXTRAS.iter().enumerate() {
         let texts = sources(&format!("crates/{name}/src"));
@@ -314,7 +314,7 @@ fn the_documentation_lists_the_rooms_in_their_order() {
 }
 
 #[test]
-fn every_file_says_what_it_is() {
+fn every_file_states_its_kind() {
     for (path, text) in ROOTS.into_iter().flat_map(sources) {
         assert!(text.starts_with("//! "), "{} does not begin with `//! `", path.display());
     }

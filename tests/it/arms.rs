@@ -246,7 +246,7 @@ fn servos_of_a_panda_carry_plans_out_in_mujoco() {
 }
 
 #[test]
-fn what_no_pose_can_do_is_no_plan_and_says_so() {
+fn goals_without_a_feasible_pose_give_no_plan_and_a_reason() {
     // A shelf above the can leaves room for the tool but not for the arm.
     let folder = folder(ROBOT);
     let folder = folder.path();
@@ -265,7 +265,7 @@ fn faults(robot: &str) -> String {
 }
 
 #[test]
-fn faults_of_arms_say_where_and_what_to_do() {
+fn errors_of_arms_have_location_and_remedy() {
     for (robot, message) in [
         (
             "{urdf: six.urdf, flange: tool0, reach: {max: 0.9}}",

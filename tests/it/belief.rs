@@ -218,7 +218,7 @@ fn the_command_infers_from_a_simulated_trajectory() {
 }
 
 #[test]
-fn the_heavier_of_two_that_meet_is_told_by_which_gives_way() {
+fn the_heavier_of_two_colliding_objects_moves_less() {
     let ranges = [Span::new(0.2, 0.5), Span::new(1.0, 2.0), Span::new(8.0, 10.0)];
     let log = |masses: [f64; 2]| {
         let (mut scene, motion) = cylinders(None);

@@ -34,7 +34,7 @@ fn the_crate_leaves_the_place_before_the_can_comes() {
 }
 
 #[test]
-fn what_must_stay_and_what_takes_too_many_pushes_is_not_moved_aside() {
+fn kept_objects_and_costly_obstructions_are_not_cleared() {
     let kept = task(|yaml| format!("{yaml}\nkeep: {{objects: [crate]}}\n"));
     assert_ne!(solve(&kept).status, PlanStatus::Solved);
     let hasty = task(|yaml| yaml.replace("max_count: 4", "max_count: 1"));

@@ -19,7 +19,7 @@ fn transcripts() {
 }
 
 #[test]
-fn the_help_says_what_every_exit_code_means() {
+fn the_help_explains_every_exit_code() {
     let output = run(&["--help"]);
     let text = String::from_utf8(output.stdout).expect("UTF-8");
     let codes = text.split("Exit codes:\n").nth(1).expect("a list of exit codes");
@@ -111,7 +111,7 @@ fn a_simulation_leaves_files_that_check_finds_fine() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_written_is_said_before_anything_is_computed() {
+fn a_folder_that_cannot_be_written_is_reported_before_any_computation() {
     // A file in place of the folder causes a failure for every user, including root.
     let folder = TempDir::new().expect("a folder");
     let taken = folder.path().join("taken");
@@ -310,7 +310,7 @@ fn files(folder: &Path) -> Vec<String> {
 }
 
 #[test]
-fn check_says_why_there_is_no_plan_only_when_asked() {
+fn check_explains_a_missing_plan_only_on_request() {
     let folder = TempDir::new().expect("a folder");
     let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
     let (far, near) = (path("far.yaml"), path("near.yaml"));

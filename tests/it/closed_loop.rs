@@ -69,7 +69,7 @@ fn every_shipped_task_with_unknowns_is_solved_in_drawn_worlds() {
 }
 
 #[test]
-fn tasks_that_say_so_need_a_probe() {
+fn marked_tasks_need_a_probe() {
     let tasks = tasks_with_unknowns();
     let probing: Vec<&Task> =
         tasks.iter().filter(|task| task.description.contains("exploratory")).collect();
@@ -180,7 +180,7 @@ fn notes(steps: &[Step]) -> Vec<Note> {
 }
 
 #[test]
-fn what_is_seen_late_seldom_swapped_or_wrong_is_ridden_out() {
+fn late_rare_swapped_and_wrong_observations_are_tolerated() {
     let task = shipped("hidden-hinge");
     let (ended, trace) = spoilt(&task, Vec::new(), |_, looks| looks.reverse());
     ended.expect("put in order");
@@ -274,7 +274,7 @@ fn masses_and_frictions_are_learnt_from_pushes() {
 }
 
 #[test]
-fn solving_a_task_that_does_not_know_its_scene_says_so() {
+fn solving_a_task_with_unknowns_prints_a_warning() {
     let task = shipped("unknown-slide");
     let solution = planner().solve(&task, &library()).expect("a sound task");
     let guessed = Warning::Guessed { unknown: task.unknown };
@@ -312,7 +312,7 @@ fn unknowns_are_read_written_and_their_faults_have_places() {
 }
 
 #[test]
-fn world_files_say_what_is_really_there_and_their_faults_have_places() {
+fn world_files_state_the_ground_truth_and_their_errors_have_locations() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let task = Task::parse(TASK, "t.yaml").expect("a task");
     let load = |text: &str| {
@@ -344,7 +344,7 @@ fn world_files_say_what_is_really_there_and_their_faults_have_places() {
 }
 
 #[test]
-fn the_command_runs_resumes_and_tells_how_it_ended() {
+fn the_command_runs_resumes_and_reports_its_end() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
     let run = |more: &[&str]| {

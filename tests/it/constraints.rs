@@ -56,7 +56,7 @@ fn followed(solution: &Solution, region: &Region) -> (f64, usize, usize) {
 }
 
 #[test]
-fn what_is_kept_out_of_is_gone_around_by_those_who_are_to() {
+fn keep_out_areas_are_bypassed_by_the_named_bodies() {
     let free = solved(&task(CAN));
     assert_eq!(free.status, PlanStatus::Solved);
     let circle = |who: &str| {
@@ -142,7 +142,7 @@ goal: {object: box, position: [0.67, 0], tolerance: 0.01}
 ";
 
 #[test]
-fn what_may_fall_is_pushed_off_and_said_to_fall() {
+fn objects_that_may_fall_are_pushed_off_and_reported() {
     let kept = solved(&task(CAP));
     assert!(!matches!(kept.status, PlanStatus::Solved | PlanStatus::Fragile));
     let text = CAP.replace("position: [0.62, 0]}", "position: [0.62, 0], may_fall: true}");

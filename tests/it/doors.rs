@@ -97,7 +97,7 @@ fn doors_turn_about_their_hinges_and_drawers_slide_alike_in_every_model() {
 }
 
 #[test]
-fn faults_of_joints_to_the_world_are_told() {
+fn errors_of_world_joints_are_reported() {
     let faults = |from: &str, to: &str| {
         let text = FURNITURE.replace(from, to);
         Task::parse(&text, "furniture.yaml").expect_err("faults").to_string()
@@ -174,7 +174,7 @@ fn a_door_turns_on_beyond_half_a_turn_and_stops_at_its_limit_in_every_model() {
 }
 
 #[test]
-fn what_a_joint_lets_turn_is_off_by_the_way_that_its_limits_leave() {
+fn the_heading_error_of_a_jointed_object_respects_its_limits() {
     let off = |limits: &str, wanted: f64, now: f64, counted: f64| {
         let text = WIDE.replace("[-10, 225]", limits);
         let task = task(&text.replace("joint_deg: 200", &format!("joint_deg: {wanted}")));

@@ -65,7 +65,7 @@ fn things_are_brought_to_touch_apart_and_beside_each_other_whatever_is_a_little_
 }
 
 #[test]
-fn what_is_met_already_needs_no_push() {
+fn goals_that_are_met_need_no_push() {
     let solution = solved(&task([0.6, -0.1], "gap: {to: mug, min: 0.05}"));
     assert_eq!(solution.status, PlanStatus::Solved);
     assert!(solution.plans[0].plan.is_empty());
@@ -109,7 +109,7 @@ fn only_where_they_are_to_each_other_counts() {
 /// A longer push would press on both touching objects; a fragile object is pushed no further than
 /// contact.
 #[test]
-fn what_is_fragile_is_brought_to_touch_without_pushing_on() {
+fn fragile_objects_are_touched_without_further_pushing() {
     let text = task([0.6, -0.1], "gap: {to: mug, max: 0.004}").to_yaml().expect("as text");
     let mut task = Task::parse(&text, "gap.yaml").expect("sound");
     task.scene.objects[0].max_force = Some(1.0);

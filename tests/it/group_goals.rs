@@ -93,7 +93,7 @@ fn any_two_of_a_group_satisfy_it_and_files_keep_it() {
 }
 
 #[test]
-fn what_no_group_can_be_is_a_fault_with_a_remedy() {
+fn impossible_groups_are_errors_with_a_remedy() {
     for (change, fault) in [
         (["at_least: 2", "at_least: 4"], "only 3 objects are named"),
         (["[crate, can, cup]", "[crate, can, can]"], "`can` is named twice"),

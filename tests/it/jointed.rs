@@ -128,7 +128,7 @@ fn violation(scene: &Scene, state: &State) -> f64 {
 }
 
 #[test]
-fn joints_hold_whatever_the_network_says() {
+fn joints_hold_for_every_output_of_the_network() {
     let long = Stroke { to: Pose::new(0.6, 0.1, 0.0), duration: 4.0, ..stroke() };
     let models: [Box<dyn EffectModel>; 2] =
         [Box::new(Network::new(gentle())), Box::new(Prior::default())];
@@ -142,7 +142,7 @@ fn joints_hold_whatever_the_network_says() {
 }
 
 #[test]
-fn what_nothing_pushes_stays_jointed_or_not() {
+fn objects_without_a_push_stay_jointed_or_not() {
     let aside =
         Stroke { from: Pose::new(0.0, -0.5, 0.0), to: Pose::new(0.2, -0.5, 0.0), ..stroke() };
     let end = rollout(&Network::new(gentle()), &scene(), aside);

@@ -190,7 +190,7 @@ fn the_blade_carries_its_share_of_the_weight() {
 }
 
 #[test]
-fn what_is_let_go_falls_and_gains_nothing() {
+fn a_released_plate_falls_and_gains_no_energy() {
     let job = job(vec![square(Pose::default())], lever(0, 0.5, 0.14, 60.0));
     let (trajectory, motion) = LeverSimulator::FINE.record(&job, 0.01);
     assert_eq!(trajectory.ending, Ending::Back);

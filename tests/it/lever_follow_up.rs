@@ -135,7 +135,7 @@ fn the_whole_is_judged_and_perturbed_as_one() {
 }
 
 #[test]
-fn what_pushes_must_not_do_is_found() {
+fn forbidden_pushes_are_found() {
     let on_it = verify(&task(), &plan(-0.03, 0.12));
     let fault = Warning::SetDownOn { object: "plate".to_owned(), stroke: 1 };
     assert_eq!(on_it.reason, Some(Reason::GoesWrong { engine: Engine::Spatial, fault }));
@@ -260,7 +260,7 @@ fn faults(changes: &[(&str, &str)]) -> String {
 }
 
 #[test]
-fn faults_of_files_say_what_and_where() {
+fn errors_of_files_have_reason_and_location() {
     insta::assert_snapshot!(faults(&[(", position: [0.6, 0], tolerance: 0.01", "")]), @r"
     task.yaml:7:9: error: pushes may follow, but the goal states no position to push to
       help: add `position` and `tolerance` to the goal, or remove this

@@ -70,7 +70,7 @@ fn cannot(fault: LeverFault) -> Warning {
 }
 
 #[test]
-fn shipped_tasks_are_solved_or_refused_as_they_say() {
+fn shipped_tasks_are_solved_or_refused_as_described() {
     let paths = shipped();
     assert!(paths.len() >= 6, "{paths:?}");
     for path in paths {
@@ -144,7 +144,7 @@ fn faults(changes: &[(&str, &str)]) -> String {
 }
 
 #[test]
-fn faults_of_files_say_what_and_where() {
+fn errors_of_files_have_reason_and_location() {
     assert_eq!(faults(&[]), "");
     insta::assert_snapshot!(faults(&[("clearance: 0.006", "clearance: 0.001")]), @r"
     task.yaml:6:9: error: `screwdriver` does not fit: its blade is 2 mm thick, but the clearance below `plate` is 1 mm
@@ -224,7 +224,7 @@ position: [0.5, 0.3]}
 }
 
 #[test]
-fn what_no_robot_can_do_is_refused_in_words() {
+fn infeasible_lever_ups_are_refused_with_a_reason() {
     let mut task = Task::parse(PLATE, "plate.yaml").expect("sound");
     let tool = library().get("screwdriver").expect("shipped").clone();
     let asked = |fraction: f64| ManualLever {

@@ -49,7 +49,7 @@ fn a_tool_goes_back_a_little_and_all_the_way_from_below_a_shelf() {
 }
 
 #[test]
-fn what_a_fork_holds_comes_back_with_it_in_every_engine() {
+fn an_object_held_by_a_fork_comes_back_with_it_in_every_engine() {
     // There are 2 mm of play between the arms.
     let arm = |name: &str, x: f64| Part::cuboid(name, [0.02, 0.1, 0.05], Pose::new(x, 0.0, 0.0));
     let side = Part::cuboid("side", [0.122, 0.02, 0.05], Pose::new(0.0, 0.06, 0.0));
@@ -98,7 +98,7 @@ goal: {object: can, position: [0.717, 0.161], tolerance: 0.01}
 ";
 
 #[test]
-fn what_sticks_to_a_tool_is_left_standing_in_mujoco() {
+fn an_object_stuck_to_a_tool_is_left_standing_in_mujoco() {
     let Some(python) = python() else { return };
     let task = Task::parse(STICKY, "sticky.yaml").expect("sound");
     let planner = Planner::for_effort(Effort::Draft).expect("its models").build();

@@ -54,7 +54,7 @@ proptest! {
     }
 
     #[test]
-    fn what_is_read_from_any_text_is_written_so_that_it_is_read_again(
+    fn models_read_from_any_text_are_written_readably(
         text in "(network|prior|planar|3d|still|x)([,|=\" ](steps|frame|step|joints|up-to|weights|[0-9]|none|1/60|20mm|\\.safetensors)){0,4}"
     ) {
         if let Ok(spec) = text.parse::<ModelSpec>() {
@@ -89,7 +89,7 @@ fn texts_as_they_are_meant_to_look() {
 }
 
 #[test]
-fn faults_say_what_was_expected() {
+fn errors_state_the_expected_value() {
     for (text, expected) in [
         ("", "`` is not an effect model; use network, prior, planar, 3d"),
         ("quasi-static", "`quasi-static` is not an effect model; use network, prior, planar"),

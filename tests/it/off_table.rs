@@ -106,7 +106,7 @@ fn three_dimensions_decide_whether_it_falls() {
 
 /// An object that leans on a support beyond the edge has not fallen.
 #[test]
-fn what_is_held_up_beyond_the_edge_has_not_fallen() {
+fn an_object_held_up_beyond_the_edge_has_not_fallen() {
     let mut task = task("{object: box, off_table: left}");
     task.scene.objects[0].pose.heading = 0.0;
     // The gap is 5 mm narrower than the box.

@@ -80,7 +80,7 @@ fn outside_of_it_simulation_takes_its_place_or_nothing_does() {
 }
 
 #[test]
-fn what_a_motion_cannot_reach_raises_no_warning() {
+fn objects_out_of_reach_of_a_motion_raise_no_warning() {
     let mut scene = scene(0.5);
     for k in 0..30 {
         let mut far = object(Shape::Cylinder { radius: 0.4, height: 0.1 }, 3.0, f64::from(k), 0.0);
@@ -149,7 +149,7 @@ fn boxes_of_one_width_do_not_pass_through_each_other() {
 }
 
 #[test]
-fn a_box_crushed_against_a_wall_is_said_to_jam_and_is_simulated_when_asked() {
+fn a_box_crushed_against_a_wall_is_reported_as_jammed_and_simulated_on_request() {
     let mut scene = scene(0.5);
     scene.obstacles.push(Obstacle {
         name: "wall".into(),
@@ -172,7 +172,7 @@ fn a_box_crushed_against_a_wall_is_said_to_jam_and_is_simulated_when_asked() {
 }
 
 #[test]
-fn a_tool_set_down_on_an_object_is_said() {
+fn a_tool_set_down_on_an_object_is_reported() {
     let mut scene = scene(0.5);
     scene.objects[0].pose = Pose::new(0.02, 0.0, 0.0);
     let name = scene.objects[0].name.clone();

@@ -68,7 +68,7 @@ fn in_mujoco(file: &PlanFile) -> Option<Json> {
 }
 
 #[test]
-fn what_is_low_is_pushed_below_a_shelf_by_a_tool_whose_hand_stays_outside() {
+fn low_objects_are_pushed_below_a_shelf_with_the_hand_outside() {
     let task = task(SHELF);
     let solution = solved(&task);
     assert_eq!(solution.status, PlanStatus::Solved);
@@ -99,7 +99,7 @@ fn pushed(text: &str) -> (Task, Arc<Tool>, Push) {
 }
 
 #[test]
-fn what_is_tall_is_stopped_by_the_shelf_in_every_engine_and_what_is_low_is_not() {
+fn tall_objects_are_stopped_by_the_shelf_in_every_engine_and_low_ones_are_not() {
     let tall = SHELF.replace("height: 0.07", "height: 0.12").replace("[0.66, 0.02]", "[0.4, 0.02]");
     for (text, passes) in [(SHELF, true), (tall.as_str(), false)] {
         let (task, tool, push) = pushed(text);

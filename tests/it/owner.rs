@@ -113,7 +113,7 @@ fn an_arm_does_not_push_what_is_too_heavy_for_it() {
 }
 
 #[test]
-fn what_would_topple_is_not_pushed_in_a_plane_either() {
+fn objects_that_would_topple_are_not_pushed_in_2d() {
     let post = |lift: f64| {
         let rules = format!("max_count: 2, lift: {lift}");
         let slim = "cuboid: {size: [0.03, 0.03, 0.28]}";
@@ -133,7 +133,7 @@ fn what_would_topple_is_not_pushed_in_a_plane_either() {
 }
 
 #[test]
-fn what_stands_elsewhere_than_the_task_says_is_pushed_where_it_stands() {
+fn displaced_objects_are_pushed_at_their_true_poses() {
     let elsewhere = |truth: &mut Truth| truth.scene.objects[0].pose.position.y = 0.11;
     let (trace, world) = run(&task(CAN), elsewhere);
     assert_eq!(trace.notes, [Note::Elsewhere { object: 0 }]);
@@ -212,7 +212,7 @@ fn pushes_that_are_not_of_the_allowed_form_do_not_pass() {
 }
 
 #[test]
-fn what_hangs_together_looks_the_same_after_a_full_turn_alone() {
+fn jointed_objects_have_no_rotational_symmetry() {
     let text = "
 scene:
   objects:
@@ -243,7 +243,7 @@ goal: {object: box, position: [0.6, 0], tolerance: 0.02}
 ";
 
 #[test]
-fn what_else_moves_is_said_and_what_is_to_be_kept_stays() {
+fn displaced_objects_are_reported_and_kept_objects_stay() {
     let text = |task: &Task| solution_document(task, &solved(task)).to_text();
     let shoved = text(&task(VASE));
     let line = shoved.lines().find(|line| line.starts_with("also moves: vase by "));
@@ -262,7 +262,7 @@ fn what_else_moves_is_said_and_what_is_to_be_kept_stays() {
 }
 
 #[test]
-fn what_is_kept_is_there_and_not_what_is_moved() {
+fn kept_objects_are_present_and_moved_objects_are_not() {
     let faults = |keep: &str| {
         let text = format!("{VASE}keep: {keep}\n");
         Task::parse(&text, "task.yaml").expect_err("a fault").to_string()
@@ -308,7 +308,7 @@ goal: {object: box, position: [0.699, 0], tolerance: 0.002}
 ";
 
 #[test]
-fn what_works_by_a_millimetre_is_fragile() {
+fn plans_with_a_margin_of_a_millimetre_are_fragile() {
     let planner = Planner::for_effort(Effort::Standard).expect("its models").build();
     let status = |text: &str| planner.solve(&task(text), &library()).expect("sound").status;
     assert_eq!(status(EDGE), PlanStatus::Fragile);
@@ -341,7 +341,7 @@ fn as_many_pushes_are_made_as_it_takes_and_no_more() {
 }
 
 #[test]
-fn what_stands_in_the_way_of_a_plan_is_named() {
+fn obstructions_of_a_plan_are_named() {
     let cause = |text: &str| {
         let task = task(text);
         let found = solved(&task);
@@ -384,7 +384,7 @@ fn pushes_turn_no_farther_from_what_is_allowed_however_often_they_are_aimed_agai
 }
 
 #[test]
-fn what_is_solved_is_not_fragile_when_it_is_verified() {
+fn solved_plans_are_not_fragile_in_verification() {
     let folder = std::path::Path::new(crate::ROOT).join("tasks");
     for name in ["triangle-turned", "turn-the-box", "pull-back"] {
         let task = Task::load(folder.join(format!("{name}.yaml"))).expect("a shipped task");

@@ -216,7 +216,7 @@ fn names_stay_text_and_the_browser_runs_nothing_else() {
 
 /// The page shows why each tool was rejected and the result of every candidate push.
 #[test]
-fn tools_and_pushes_say_why_they_lost() {
+fn tools_and_pushes_state_why_they_were_rejected() {
     let folder = TempDir::new().expect("a folder");
     let (task, solution) = solved("tasks/pull-back-behind-wall.yaml");
     let data = data(&written(&folder, "pull-back-behind-wall", &task, &solution));
@@ -344,8 +344,8 @@ fn follow(browser: &mut Browser, part: &str) -> Json {
 fn wait(browser: &mut Browser, until: &str) {
     let waited = browser.value(&format!(
         "new Promise((done) => {{ const since = performance.now(); const look = () => {{ \
-         if ({until}) done(true); else if (performance.now() - since > 20000) done(false); \
-         else requestAnimationFrame(look); }}; look(); }})"
+         if ({until}) return done(true); if (performance.now() - since > 20000) return done(false); \
+         requestAnimationFrame(look); }}; look(); }})"
     ));
     assert_eq!(waited, true, "{until}");
 }

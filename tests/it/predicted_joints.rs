@@ -59,7 +59,7 @@ fn where_joints_stop_is_found_once_they_stopped_there() {
 /// Half of the near pairs are not joined. Before any observation the other object is therefore
 /// predicted to stay; once the two are known to be one body, it is predicted to move along.
 #[test]
-fn what_is_foreseen_is_in_the_middle_of_what_is_possible() {
+fn predictions_are_medians_of_the_possible_outcomes() {
     let (scene, motion) = pair(Some(JointKind::Fixed));
     let model = Prior::default();
     let before = Belief::new(&scene, motion.tool.clone(), 0.0, BeliefSettings::new(EXACT));

@@ -86,7 +86,7 @@ fn a_wide_tool_that_meets_the_handles_alone_carries_a_pot_straight() {
 }
 
 #[test]
-fn what_is_low_goes_below_a_handle_and_what_is_tall_does_not() {
+fn low_objects_pass_below_a_handle_and_tall_objects_do_not() {
     for (height, passes) in [(0.05, true), (0.09, false)] {
         let can = Object::cylinder("can", 0.02, height).mass(0.3).at(0.43, 0.12, 0.0);
         let mut scene = Scene::new([kettle().objects[0].clone(), can]);
@@ -111,7 +111,7 @@ fn what_is_low_goes_below_a_handle_and_what_is_tall_does_not() {
 }
 
 #[test]
-fn what_stands_carries_everything_below_the_centre_of_mass() {
+fn grounded_parts_support_the_centre_of_mass() {
     let scene = kettle();
     let physics = Physics::stated(&scene);
     let feet = &physics.feet;
@@ -169,7 +169,7 @@ goal: {object: pan, position: [0.55, 0.1], tolerance: 0.02}
 ";
 
 #[test]
-fn files_say_how_high_parts_are_and_what_cannot_be_is_a_fault() {
+fn files_state_heights_of_parts_and_impossible_heights_are_errors() {
     let task = Task::parse(PAN, "pan.yaml").unwrap_or_else(|faults| panic!("{faults}"));
     assert!(task.scene.objects[2].is_raised() && !task.in_space());
     let written = task.to_yaml().expect("a file");

@@ -11,7 +11,7 @@ use pushplan_act::judge::Trial;
 use crate::recorded_pushes::{SUPPORTS, errors, pushes};
 
 #[test]
-fn told_its_true_support_a_model_is_near_and_told_another_it_is_not_nearer() {
+fn a_model_is_accurate_with_the_true_support_and_not_better_with_another() {
     let sets = SUPPORTS.map(pushes);
     let supports: Vec<Support> =
         sets.iter().map(|pushes| pushes[0].scene.objects[0].support.clone()).collect();
@@ -37,7 +37,7 @@ fn told_its_true_support_a_model_is_near_and_told_another_it_is_not_nearer() {
 /// The three inner points are at 0.4 of the corners' distance from the centre of mass, the outer
 /// ones at 0.8.
 #[test]
-fn ten_pushes_tell_where_the_plate_stands() {
+fn ten_pushes_locate_the_support_of_the_plate() {
     for (name, spread) in [("inner", 0.4), ("outer", 0.8)] {
         let trials: Vec<Trial> = pushes(name).iter().map(Trial::of_recording).collect();
         let found = fit(&Prior::default(), &trials, &FitSettings::default(), &NoProgress);

@@ -73,7 +73,7 @@ fn believed(recording: &Recording, mirrored: bool, headings: bool) -> Vec<[f64; 
 }
 
 #[test]
-fn what_is_seen_in_a_mirror_is_believed_alike() {
+fn mirrored_observations_give_mirrored_beliefs() {
     let recording = pushed_row();
     let settings = BeliefSettings::new(Noise::default());
     for headings in [true, false] {

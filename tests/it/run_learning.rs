@@ -66,7 +66,7 @@ fn pushes_that_the_arm_cannot_begin_teach_nothing() {
     let mut trace = Trace::new(task, settings, "draft".into(), None);
     runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
     assert!(!trace.steps.is_empty() && trace.steps.iter().all(|step| step.stop.is_some()));
-    let learnt = trace.learnt.expect("what was given");
+    let learnt = trace.learnt.expect("learned parameters");
     let begun = trace.steps.iter().filter(|step| !step.motion().strokes.is_empty()).count();
     assert_eq!(learnt.pushes, given.pushes + begun);
 }

@@ -68,7 +68,7 @@ fn a_list_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
 }
 
 #[test]
-fn what_makes_no_sense_in_a_list_is_a_fault_with_its_place() {
+fn invalid_lists_are_errors_with_location() {
     let twice = faults(|yaml| yaml.replace("object: box, position", "object: can, position"));
     assert!(twice.contains("`can` has two goals"), "{twice}");
     let unknown = faults(|yaml| yaml.replace("object: box, position", "object: bx, position"));
@@ -101,7 +101,7 @@ goal:
 fn where_not_all_goals_can_be_met_the_plan_is_partial_and_never_solved() {
     let solution = solve(&Task::parse(FAR, "far.yaml").expect("sound"));
     assert_eq!(solution.status, PlanStatus::Partial);
-    let partial = solution.partial.as_ref().expect("says which");
+    let partial = solution.partial.as_ref().expect("a partial plan");
     assert_eq!(partial.met, [1]);
     let verdict = solution.plans[0].verdict.as_ref().expect("replayed");
     assert!(!verdict.passed && !verdict.nominal_ok());

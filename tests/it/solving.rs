@@ -114,7 +114,7 @@ impl<M: EffectModel> EffectModel for Counted<M> {
 }
 
 #[test]
-fn what_decides_mends_what_screens_and_has_the_last_word() {
+fn the_final_model_corrects_the_screening_model() {
     let (task, library) = shipped("pull-back.yaml");
     let planar = || Simulated::new(Simulator::planar());
     let off = Vector::new(0.01, 0.015);
@@ -126,7 +126,7 @@ fn what_decides_mends_what_screens_and_has_the_last_word() {
         .unwrap();
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = solution.best().unwrap();
-    assert_eq!(best.refinement.aimed_at, None, "no replay had to tell how far it is off");
+    assert_eq!(best.refinement.aimed_at, None, "no replay had to measure its error");
     assert!(best.outcome.error() < 0.3 * off.norm(), "{}", best.outcome.error());
     assert!(best.refinement.after < 0.3 * off.norm(), "{}", best.refinement.after);
     let [screened, decided] = [screened, decided].map(|count| count.load(Ordering::Relaxed));
@@ -275,7 +275,7 @@ impl Progress for Recorder {
 }
 
 #[test]
-fn every_shipped_task_ends_as_its_description_says() {
+fn every_shipped_task_ends_as_described() {
     let library = ToolLibrary::embedded().unwrap();
     let planner = planner();
     for path in crate::assets::shipped_tasks() {

@@ -88,7 +88,7 @@ fn a_head_of_zeros_changes_no_bit() {
 }
 
 #[test]
-fn ends_follow_a_small_change_of_the_last_layer_as_they_are_said_to() {
+fn final_poses_follow_a_small_change_of_the_last_layer_as_predicted() {
     let network = Network::new(EffectModels::weights().expect("the shipped weights"));
     let change = change(network.effect_width());
     // The share is about as large as the perturbation of poses: ends jump by some hundredths of a
@@ -136,7 +136,7 @@ fn the_change_that_made_the_pushes_is_learnt_from_them() {
 }
 
 #[test]
-fn what_another_network_learnt_is_refused() {
+fn fits_of_another_network_are_refused() {
     let network = Network::new(weights(32));
     let fit = learnt(&network, &pushes(&network, 4));
     let other = Network::new(weights(16)).fitted(&fit);

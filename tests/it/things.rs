@@ -61,7 +61,7 @@ fn it_is_written_as_it_was_read() {
 }
 
 #[test]
-fn faults_of_parts_are_told_at_their_places() {
+fn errors_of_parts_have_their_locations() {
     let faults = |from: &str, to: &str| {
         let faults = Task::parse(&MUG.replace(from, to), "mug.yaml").expect_err("faults");
         faults.to_string()

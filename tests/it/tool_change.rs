@@ -40,7 +40,7 @@ fn solve(yaml: &str) -> (Task, Solution) {
 }
 
 #[test]
-fn what_no_single_tool_does_two_do() {
+fn two_tools_solve_tasks_that_no_single_tool_solves() {
     let (task, solution) = solve(TWO);
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = &solution.plans[0];

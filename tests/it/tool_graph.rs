@@ -101,7 +101,7 @@ fn how_a_tool_is_cut_into_parts_and_in_which_order_changes_nothing() {
 }
 
 #[test]
-fn parts_with_rows_of_their_own_say_the_same_to_the_bit() {
+fn parts_with_separate_rows_are_equal_to_the_bit() {
     // The graph has a row for every part; the computation uses one row for all.
     let weights = weights(64);
     // Two boxes before one part.

@@ -92,7 +92,7 @@ fn a_tool_set_down_on_an_object_is_no_pass() {
     assert!(!verdict.passed);
     for evidence in &verdict.evidence {
         let landed = Warning::SetDownOn { object: "can".into(), stroke: 1 };
-        assert_eq!(evidence.warnings, [landed], "said once");
+        assert_eq!(evidence.warnings, [landed], "one warning");
     }
 }
 
@@ -141,7 +141,7 @@ fn a_can_does_not_pass_through_a_gap_narrower_than_itself() {
 }
 
 #[test]
-fn what_the_task_does_not_allow_is_said_of_any_plan() {
+fn violations_of_the_task_are_reported_for_any_plan() {
     let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     let mut task = task();
     task.tools = ToolChoice::Named(vec!["stick".into()]);
@@ -177,7 +177,7 @@ fn a_safe_is_not_moved_by_an_arm_that_has_a_limit() {
 /// The sustained force is friction, coefficient times weight, for every solid of the can; forces of
 /// other objects on it do not count as the tool's.
 #[test]
-fn what_is_fragile_is_pressed_no_harder_than_it_may() {
+fn fragile_objects_are_pressed_within_their_limit() {
     let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
     let handle = "parts: [{name: handle, shape: {cuboid: {size: [0.02, 0.01, 0.1]}}, position: [-0.045, 0]}], mass";
     let weight = 0.45 * 0.4 * 9.81;
@@ -254,7 +254,7 @@ fn replays_go_on_until_the_answer_is_clear_and_no_longer() {
 }
 
 #[test]
-fn what_fails_in_the_plane_is_not_asked_in_3d() {
+fn plans_that_fail_in_2d_are_not_replayed_in_3d() {
     let good = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
     let verify = |task: &Task| {
         let verifier = Verifier::new(VerifySettings { replays: 8, seed: 1 }).until_clear();

@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn what_joints_do_is_undone_and_limits_are_kept() {
+    fn inverse_kinematics_inverts_joints_within_limits() {
         let arm = arm();
         let mut solved = 0;
         for index in 0..60 {

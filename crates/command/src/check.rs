@@ -23,7 +23,7 @@ use super::{
   pushplan check tools/*.yaml tasks/*.yaml
   pushplan check --why my-task.yaml
   pushplan check --schema task > task.schema.json
-  # then, as the first line of a task file:
+  # then begin the task file with this line:
   # yaml-language-server: $schema=task.schema.json")]
 pub struct CheckArgs {
     /// Tool, task, plan, trajectory, recording, world or run files; the content determines the kind

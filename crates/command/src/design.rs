@@ -49,7 +49,7 @@ pub struct DesignArgs {
     #[arg(long, value_name = "N", default_value_t = DesignSettings::CANDIDATES as u32,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     candidates: u32,
-    /// Draw all candidates at random, as a baseline for the search
+    /// Draw all candidates at random: the baseline of the search
     #[arg(long, hide = true)]
     random: bool,
     /// Search effort for each of the best tools

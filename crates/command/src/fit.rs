@@ -21,7 +21,7 @@ use super::{
 #[command(
     after_help = "Fits two parameters to all recordings together: the spread of the support and \
 the friction coefficient between pusher and objects. The spread is the distance of the support \
-points from the centre, as a share of the corners' distance or of the radius. Give recordings of \
+points from the centre, relative to the corners' distance or the radius. Give recordings of \
 one object or of similar objects, one push each; fifty pushes of 1 cm are enough. The fit compares \
 final poses and assumes errors with Student's t distribution. The analytic model `prior` is for \
 slow pushes, up to 0.02 m/s; for faster pushes use --model planar.

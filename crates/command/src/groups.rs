@@ -39,6 +39,7 @@ pub fn grouped(command: Command, groups: Groups) -> Command {
         listed.iter().map(|(name, _)| name.as_str()).filter(|name| !named(name)).collect();
     section("Others", &others);
     command.help_template(format!(
-        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{text}Options:\n{{options}}{{after-help}}"
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{text}Options:\n{{options}}\
+         {{after-help}}"
     ))
 }

@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn both_ways_to_say_a_place_are_read() {
+    fn both_forms_of_a_position_are_read() {
         let lever = lever_argument("point=0:0.5,depth=0.012,angle=90").unwrap();
         assert_eq!((lever.place, lever.pivot), (ManualPlace::Edge(0, 0.5), Pivot::Auto));
         assert_eq!((lever.depth, lever.angle), (0.012, std::f64::consts::FRAC_PI_2));

@@ -17,10 +17,10 @@ use super::value_enums::{OUT_OF_RANGE, possible_values};
 macro_rules! help {
     ($end:literal) => {
         concat!(
-            "Effect model of pushes: network; prior (the analytic model that it corrects); planar or \
-             3d (2-D or 3-D simulation); still (nothing moves); or a weights file. \
-             Settings follow commas: prior,frame=20mm or planar,step=1/120. A bar precedes the \
-             fallback model: prior,up-to=2|planar",
+            "Effect model of pushes: network; prior (the analytic model that it corrects); planar \
+             or 3d (2-D or 3-D simulation); still (nothing moves); or a weights file. Settings \
+             follow commas: prior,frame=20mm or planar,step=1/120. A bar precedes the fallback \
+             model: prior,up-to=2|planar",
             $end
         )
     };

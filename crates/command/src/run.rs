@@ -89,7 +89,8 @@ pub struct RunArgs {
           value_parser = clap::value_parser!(u16).range(0..=1000))]
     max_probes: u16,
     /// Rule for choosing exploratory pushes
-    #[arg(long, value_parser = possible_values(&PROBES), value_name = "RULE", default_value = "task")]
+    #[arg(long, value_parser = possible_values(&PROBES), value_name = "RULE",
+          default_value = "task")]
     probe_rule: ProbeRule,
     /// Seed of the belief samples and the plans
     #[arg(long, value_name = "N", default_value_t = 0)]

@@ -57,7 +57,8 @@ pub struct VerifyArgs {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// View on the page
-    #[arg(long, value_parser = possible_values(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
+    #[arg(long, value_parser = possible_values(&VIEWS), value_name = "VIEW",
+          default_value = "2d", requires = "out")]
     page: PageView,
     #[command(flatten)]
     form: Form,

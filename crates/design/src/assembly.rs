@@ -297,7 +297,7 @@ mod tests {
 
     /// A tool separates only if a connection was omitted or rounded away.
     #[test]
-    fn every_assembly_is_one_piece_of_its_parts_and_a_file_says_the_same() {
+    fn every_assembly_is_one_piece_of_its_parts_and_equals_its_file() {
         for (k, form) in Form::up_to(usize::MAX).into_iter().enumerate() {
             for draw in 0..50 {
                 let mut random = generator(draw, k as u64);

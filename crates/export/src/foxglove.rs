@@ -79,7 +79,8 @@ pub(super) fn entity(frame: &str, id: &str, solids: &[(Shape, Pose, f64)], colou
             Shape::Prism { base, height } => {
                 let (points, indices) = faces(base, *height);
                 triangles.push(json!({
-                    "pose": pose, "points": points, "color": colour, "colors": [], "indices": indices,
+                    "pose": pose, "points": points, "color": colour, "colors": [],
+                    "indices": indices,
                 }));
             }
         }

@@ -85,7 +85,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn whatever_a_name_holds_stays_in_its_attribute() {
+    fn any_name_stays_within_its_attribute() {
         let mut xml = Xml::default();
         xml.open("a", &[("b", "\"/><c d=\"1\" & more\u{7}".into())]);
         assert_eq!(xml.finish(), "<a b=\"&quot;/&gt;&lt;c d=&quot;1&quot; &amp; more \">\n</a>\n");

@@ -203,8 +203,14 @@ impl Motion {
             _ => None,
         });
         let slides: Vec<_> = slides.collect();
-        let turns = |motion: &Motion| matches!(motion, Motion::Hinge { axis, .. } if axis.xy().norm() < 1e-3);
-        let rises = |motion: &Motion| matches!(motion, Motion::Slide { axis, .. } if axis.xy().norm() < 1e-3);
+        let turns = |motion: &Motion| match motion {
+            Motion::Hinge { axis, .. } => axis.xy().norm() < 1e-3,
+            _ => false,
+        };
+        let rises = |motion: &Motion| match motion {
+            Motion::Slide { axis, .. } => axis.xy().norm() < 1e-3,
+            _ => false,
+        };
         let is = |motion: &Motion| {
             turns(motion)
                 || rises(motion)

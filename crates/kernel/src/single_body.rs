@@ -59,7 +59,7 @@ pub struct SingleBodyFrame<'a> {
     pub contacts: [Option<SingleBodyContact>; MOST],
 }
 
-/// A contact with a body whose motion is given. World axes, metres, as the frame begins.
+/// A contact with a body whose motion is given. World axes, metres, at the start of the frame.
 #[derive(Clone, Copy, Debug)]
 pub struct SingleBodyContact {
     /// Unit vector into the object.

@@ -24,7 +24,7 @@ pub enum Follows {
     Nothing,
 }
 
-/// A contact of each frame that has as many contacts. World axes, metres, as the frame begins.
+/// A contact of each frame that has as many contacts. World axes, metres, at the frame's start.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Touching<const N: usize> {
     /// Frames that have the contact.

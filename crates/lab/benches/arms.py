@@ -4,11 +4,12 @@
     pip install pin example-robot-data pyyaml mujoco
     python3 crates/lab/benches/arms.py --program target/release/pushplan --out arms [--mujoco]
 
-Every task that is solved without an arm is solved again with a Panda, a UR5 and an xArm7, its flange 12 and
-25 cm above the tool's underside. Pinocchio checks solved plans from the URDF and the joint trajectory in the
-plan file: the pose of the flange (1 mm, half a degree), the limits and speeds of joints, and collisions between
-links that are apart at home. With --mujoco the arm also executes the plans in MuJoCo, its joints moved by
-servos, and the plans that reach their goals are counted. Lengths are in metres.
+Every task that is solved without an arm is solved again with a Panda, a UR5 and an xArm7, its
+flange 12 and 25 cm above the tool's underside. Pinocchio checks solved plans from the URDF and the
+joint trajectory in the plan file: the pose of the flange (1 mm, half a degree), the limits and
+speeds of joints, and collisions between links that are apart at home. With --mujoco the arm also
+executes the plans in MuJoCo, its joints moved by servos, and the plans that reach their goals are
+counted. Lengths are in metres.
 """
 
 import argparse
@@ -117,7 +118,10 @@ class Judge:
                     if off > OFF or turned > TURNED:
                         found.append(f"error {off * 1e3:.2f} mm, {math.degrees(turned):.2f} deg")
             ends = [points[begin]["positions"], points[end]["positions"]]
-            goals = [np.array(step["start"]), np.array(step["start"]) + step["length"] * heading(step)]
+            goals = [
+                np.array(step["start"]),
+                np.array(step["start"]) + step["length"] * heading(step),
+            ]
             for q, goal in zip(ends, goals):
                 pin.framesForwardKinematics(model, self.data, self.full(names, q))
                 if np.linalg.norm(self.data.oMf[self.flange].translation[:2] - goal) > OFF:
@@ -178,7 +182,9 @@ def main():
     folder, more = robots(), ["--effort", options.effort]
     if folder is None:
         sys.exit("pip install example-robot-data")
-    tasks = sorted(path for path in options.tasks.glob("*.yaml") if (options.only or "") in path.name)
+    tasks = sorted(
+        path for path in options.tasks.glob("*.yaml") if (options.only or "") in path.name
+    )
     solved = []
     for path in tasks:
         code, _ = solve(options.program, path, options.out / "without", more)
@@ -215,12 +221,14 @@ def main():
                 if code == 0:
                     line |= {"faults": faults, "off_mm": worst and round(worst * 1e3, 4)}
                 else:
-                    line["says"] = (done.stderr or done.stdout)[-300:]
+                    line["message"] = (done.stderr or done.stdout)[-300:]
                 print(json.dumps(line), flush=True)
             total = {"arm": arm, "flange": length, "tasks": len(solved), "solved": count}
             total["pinocchio_agrees"] = passed
             if options.mujoco and plans:
-                lines = played(options.program, plans, options.out / f"{arm}-{round(length * 100)}-scenes")
+                lines = played(
+                    options.program, plans, options.out / f"{arm}-{round(length * 100)}-scenes"
+                )
                 for line in lines:
                     print(json.dumps({k: line[k] for k in PLAYED}), flush=True)
                 total["reached_in_mujoco"] = sum(line["reached"] for line in lines)

@@ -6,9 +6,10 @@
     python3 crates/lab/benches/bullet.py OUT --out bullet
     pushplan predict bullet
 
-The first push of every plan with one object is executed, shifted sideways and back by random distances, so that it
-differs from the choice of the model. Obstacles are omitted. Objects stand on the feet of the MuJoCo export, and tools
-move at the speed of the push against any resistance. Lengths are in metres, times in seconds.
+The first push of every plan with one object is executed, shifted sideways and back by random
+distances, so that it differs from the choice of the model. Obstacles are omitted. Objects stand on
+the feet of the MuJoCo export, and tools move at the speed of the push against any resistance.
+Lengths are in metres, times in seconds.
 """
 
 import argparse
@@ -36,8 +37,17 @@ def body(mass, solids, position, heading, friction, group, mask):
     one = bullet.createMultiBody(
         mass, basePosition=position, baseOrientation=bullet.getQuaternionFromEuler([0, 0, heading]),
         baseCollisionShapeIndex=compound(solids))
-    bullet.changeDynamics(one, -1, lateralFriction=friction, spinningFriction=0, rollingFriction=0,
-                          restitution=0, linearDamping=0, angularDamping=0, activationState=bullet.ACTIVATION_STATE_DISABLE_SLEEPING)
+    bullet.changeDynamics(
+        one,
+        -1,
+        lateralFriction=friction,
+        spinningFriction=0,
+        rollingFriction=0,
+        restitution=0,
+        linearDamping=0,
+        angularDamping=0,
+        activationState=bullet.ACTIVATION_STATE_DISABLE_SLEEPING,
+    )
     bullet.setCollisionFilterGroupMask(one, -1, group, mask)
     return one
 
@@ -70,7 +80,10 @@ class Push:
         ahead = [math.cos(self.push["direction"]), math.sin(self.push["direction"])]
         aside, behind = rng.uniform(-0.015, 0.015), rng.uniform(0.0, 0.02)
         start = self.push["start"]
-        self.start = [start[0] - behind * ahead[0] - aside * ahead[1], start[1] - behind * ahead[1] + aside * ahead[0]]
+        self.start = [
+            start[0] - behind * ahead[0] - aside * ahead[1],
+            start[1] - behind * ahead[1] + aside * ahead[0],
+        ]
         self.ahead, self.length = ahead, self.push["length"] + behind
 
     def frame(self, travelled):
@@ -100,7 +113,12 @@ class Push:
     def play(self):
         bullet.resetSimulation()
         bullet.setGravity(0, 0, -9.81)
-        bullet.setPhysicsEngineParameter(fixedTimeStep=STEP, numSolverIterations=200, enableConeFriction=1, solverResidualThreshold=0)
+        bullet.setPhysicsEngineParameter(
+            fixedTimeStep=STEP,
+            numSolverIterations=200,
+            enableConeFriction=1,
+            solverResidualThreshold=0,
+        )
         friction = self.object["friction"]
         pair = lambda other: 0.5 * (friction + other)
         # Bullet multiplies the friction values of two bodies; the object's value is one.
@@ -117,7 +135,13 @@ class Push:
         for part in self.tool["parts"]:
             x, y, *_ = part["position"]
             size = part["size"]
-            parts.append(solid_box([0.5 * side for side in size], [x, y, 0.5 * size[2]], math.radians(part.get("yaw_deg", 0))))
+            parts.append(
+                solid_box(
+                    [0.5 * side for side in size],
+                    [x, y, 0.5 * size[2]],
+                    math.radians(part.get("yaw_deg", 0)),
+                )
+            )
         x, y, turn = self.frame(0.0)
         tool = body(TOOL_MASS, parts, [x, y, lift], turn, pair(self.tool["friction"]), 4, 2)
         bullet.changeDynamics(tool, -1, localInertiaDiagonal=[TOOL_MASS] * 3)
@@ -132,10 +156,16 @@ class Push:
             if step % round(FRAME / STEP) == 0:
                 at, rotation = bullet.getBasePositionAndOrientation(thing)
                 yaw = math.degrees(bullet.getEulerFromQuaternion(rotation)[2])
-                frames.append({"pusher": [x, y, math.degrees(turn)], "objects": [[at[0], at[1], yaw]]})
-            bullet.resetBasePositionAndOrientation(tool, [x, y, lift], bullet.getQuaternionFromEuler([0, 0, turn]))
+                frames.append(
+                    {"pusher": [x, y, math.degrees(turn)], "objects": [[at[0], at[1], yaw]]}
+                )
+            bullet.resetBasePositionAndOrientation(
+                tool, [x, y, lift], bullet.getQuaternionFromEuler([0, 0, turn])
+            )
             moves = speed if step < steps else 0.0
-            bullet.resetBaseVelocity(tool, [moves * self.ahead[0], moves * self.ahead[1], 9.81 * STEP], [0, 0, 0])
+            bullet.resetBaseVelocity(
+                tool, [moves * self.ahead[0], moves * self.ahead[1], 9.81 * STEP], [0, 0, 0]
+            )
             bullet.stepSimulation()
         at, rotation = bullet.getBasePositionAndOrientation(thing)
         if at[2] < 0.8 * position[2] or at[2] > 1.2 * position[2]:
@@ -149,10 +179,18 @@ class Push:
             across = mass * (3 * radius**2 + height**2) / 12
             return [across, across, 0.5 * mass * radius**2]
         x, y, z = shape["cuboid"]["size"]
-        return [mass * (y * y + z * z) / 12, mass * (x * x + z * z) / 12, mass * (x * x + y * y) / 12]
+        return [
+            mass * (y * y + z * z) / 12,
+            mass * (x * x + z * z) / 12,
+            mass * (x * x + y * y) / 12,
+        ]
 
     def recording(self, frames):
-        thing = {key: self.object[key] for key in ("name", "shape", "mass", "friction", "support") if key in self.object}
+        thing = {
+            key: self.object[key]
+            for key in ("name", "shape", "mass", "friction", "support")
+            if key in self.object
+        }
         return {
             "schema_version": 1, "kind": "recording", "frame_time": FRAME,
             "scene": {"table": {"friction": self.table}, "objects": [thing]},
@@ -162,7 +200,9 @@ class Push:
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("folder", type=Path, help="folder with `plans` and `scenes`, written by `mujoco`")
+    parser.add_argument(
+        "folder", type=Path, help="folder with `plans` and `scenes`, written by `mujoco`"
+    )
     parser.add_argument("--out", type=Path, required=True, help="folder of the recordings")
     parser.add_argument("--seed", type=int, default=1, help="seed of all random draws; default 1")
     arguments = parser.parse_args()

@@ -6,11 +6,13 @@
     pushplan export designed/plans/*.plan.json --out designed/mjcf
     python3 designed/mjcf/replay.py designed/mjcf > designed/mujoco.jsonl
 
-Draws tasks of eight kinds, and keeps up to `--count` of each kind for which `solve` finds no working plan with the
-shipped tools. It is unknown whether any tool solves them. `design` then evaluates `--candidates` tools. With `--random`,
-all tools are random draws of the same forms without variation: the baseline is the best of as many random tools.
-Existing tasks are not drawn again. Unsolved plans have other names (`.failed.plan.json` and so on); omit them in the
-export. Lengths are in metres, masses in kilograms. Files are JSON, which is also YAML. Only Python is needed.
+Draws tasks of eight kinds, and keeps up to `--count` of each kind for which `solve` finds no
+working plan with the shipped tools. It is unknown whether any tool solves them. `design` then
+evaluates `--candidates` tools. With `--random`, all tools are random draws of the same forms
+without variation: the baseline is the best of as many random tools. Existing tasks are not drawn
+again. Unsolved plans have other names (`.failed.plan.json` and so on); omit them in the export.
+Lengths are in metres, masses in kilograms. Files are JSON, which is also YAML. Only Python is
+needed.
 """
 
 import argparse
@@ -37,20 +39,36 @@ class Draw:
         return [round(x, 4), round(self.side * y, 4)]
 
     def can(self, x, y, radius, name="can"):
-        self.objects.append({
-            "name": name, "shape": {"cylinder": {"radius": radius, "height": 0.1}}, "mass": self.u(0.2, 0.6),
-            "friction": self.u(0.3, 0.5), "position": self.at(x, y),
-        })
+        self.objects.append(
+            {
+                "name": name,
+                "shape": {"cylinder": {"radius": radius, "height": 0.1}},
+                "mass": self.u(0.2, 0.6),
+                "friction": self.u(0.3, 0.5),
+                "position": self.at(x, y),
+            }
+        )
 
     def box(self, x, y, wide, name="can"):
-        self.objects.append({
-            "name": name, "shape": {"cuboid": {"size": [wide, self.u(0.05, 0.08), 0.08]}}, "mass": self.u(0.2, 0.6),
-            "friction": self.u(0.3, 0.5), "position": self.at(x, y),
-        })
+        self.objects.append(
+            {
+                "name": name,
+                "shape": {"cuboid": {"size": [wide, self.u(0.05, 0.08), 0.08]}},
+                "mass": self.u(0.2, 0.6),
+                "friction": self.u(0.3, 0.5),
+                "position": self.at(x, y),
+            }
+        )
 
     def wall(self, x, y, long, wide, height):
         name = f"wall-{len(self.obstacles)}"
-        self.obstacles.append({"name": name, "size": [round(long, 4), round(wide, 4), height], "position": self.at(x, y)})
+        self.obstacles.append(
+            {
+                "name": name,
+                "size": [round(long, 4), round(wide, 4), height],
+                "position": self.at(x, y),
+            }
+        )
 
     def slot(self, x, y, width, height, thick=0.03):
         """Adds a wall across the table with one gap."""
@@ -58,7 +76,9 @@ class Draw:
             self.wall(x, y + sign * (width / 2 + 0.7), thick, 1.4, height)
 
     def task(self, reach, *goals, **pushes):
-        goals = [{"object": name, "position": self.at(x, y), "tolerance": 0.02} for name, x, y in goals]
+        goals = [
+            {"object": name, "position": self.at(x, y), "tolerance": 0.02} for name, x, y in goals
+        ]
         return {
             "scene": {"objects": self.objects, "obstacles": self.obstacles},
             "robot": {"reach": {"min": 0.25, "max": reach}}, "tools": "all",
@@ -145,7 +165,13 @@ def beside(d):
 
 
 KINDS = {
-    "far": far, "around": around, "slot": slot, "pocket": pocket, "together": together, "walls": walls, "gap": gap,
+    "far": far,
+    "around": around,
+    "slot": slot,
+    "pocket": pocket,
+    "together": together,
+    "walls": walls,
+    "gap": gap,
     "beside": beside,
 }
 
@@ -176,9 +202,15 @@ def main():
     parser.add_argument("--solve", required=True, help="path of the program")
     parser.add_argument("--count", type=int, default=5, help="tasks of each kind; default 5")
     parser.add_argument("--seed", type=int, default=1, help="seed of all random draws; default 1")
-    parser.add_argument("--kind", action="append", choices=KINDS, help="only this kind, repeatable; default all")
-    parser.add_argument("--candidates", type=int, default=1000, help="number of candidate tools; default 1000")
-    parser.add_argument("--parts", type=int, default=3, help="maximum number of parts of a tool; default 3")
+    parser.add_argument(
+        "--kind", action="append", choices=KINDS, help="only this kind, repeatable; default all"
+    )
+    parser.add_argument(
+        "--candidates", type=int, default=1000, help="number of candidate tools; default 1000"
+    )
+    parser.add_argument(
+        "--parts", type=int, default=3, help="maximum number of parts of a tool; default 3"
+    )
     parser.add_argument("--random", action="store_true", help="draw all candidates at random")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
@@ -186,24 +218,42 @@ def main():
     records = []
     for kind in arguments.kind or KINDS:
         for path in unsolved(arguments, kind):
-            command = [arguments.solve, "design", path, "--quiet", "--json", "--out", arguments.out / name]
+            command = [
+                arguments.solve,
+                "design",
+                path,
+                "--quiet",
+                "--json",
+                "--out",
+                arguments.out / name,
+            ]
             command += ["--candidates", str(arguments.candidates), "--parts", str(arguments.parts)]
             command += ["--random"] if arguments.random else []
             done = subprocess.run(command, capture_output=True, text=True)
             found = json.loads(done.stdout)
             plans, tool = found["solution"]["plans"], found["tool"]
             verdict = plans[0]["verdict"] if plans else None
-            records.append({
-                "task": path.stem, "kind": kind, "solved": done.returncode == 0, "status": found["status"],
-                "tool": tool and tool["name"], "parts": tool and len(tool["parts"]),
-                "robustness": verdict and verdict["robustness"], "spent": found["spent"],
-            })
+            records.append(
+                {
+                    "task": path.stem,
+                    "kind": kind,
+                    "solved": done.returncode == 0,
+                    "status": found["status"],
+                    "tool": tool and tool["name"],
+                    "parts": tool and len(tool["parts"]),
+                    "robustness": verdict and verdict["robustness"],
+                    "spent": found["spent"],
+                }
+            )
             print(json.dumps(records[-1]), flush=True)
         own = [record for record in records if record["kind"] == kind]
         print(f"{kind}: {sum(record['solved'] for record in own)} of {len(own)} solved", flush=True)
     (arguments.out / f"{name}.json").write_text(json.dumps(records, indent=1))
     rollouts = sum(record["spent"]["rollouts"] for record in records)
-    print(f"{sum(record['solved'] for record in records)} of {len(records)} solved, {rollouts} rollouts")
+    print(
+        f"{sum(record['solved'] for record in records)} of {len(records)} solved, {rollouts} "
+        "rollouts"
+    )
 
 
 if __name__ == "__main__":

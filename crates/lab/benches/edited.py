@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Edits working plans so that they break a rule or miss the goal, and counts the edited plans that pass.
+"""Edits working plans so that they break a rule or miss the goal, and counts the edited plans that
+pass.
 
     crates/lab/benches/mujoco OUT 300 7
     python3 crates/lab/benches/edited.py OUT/plans --out edited --verify target/release/pushplan
 
-Every edit is wrong by construction, so `verify` must reject it or refuse the file. Lengths are in metres. Only
-Python is needed. The exit code is 0 if none passes.
+Every edit is wrong by construction, so `verify` must reject it or refuse the file. Lengths are in
+metres. Only Python is needed. The exit code is 0 if none passes.
 """
 
 import argparse
@@ -18,7 +19,10 @@ from pathlib import Path
 
 
 def end(push):
-    return [s + push["length"] * f(push["direction"]) for s, f in zip(push["start"], (math.cos, math.sin))]
+    return [
+        s + push["length"] * f(push["direction"])
+        for s, f in zip(push["start"], (math.cos, math.sin))
+    ]
 
 
 def longer(plan, task, push):
@@ -41,8 +45,14 @@ def in_the_base(plan, task, push):
 def split(plan, task, push):
     """Adds pushes of the last millimetre until there is one too many."""
     at = plan["steps"][-1]["push"]
-    short = dict(at, start=[e - 0.001 * f(at["direction"]) for e, f in zip(end(at), (math.cos, math.sin))], length=0.001)
-    plan["steps"] += [{"push": dict(short)} for _ in range(task["pushes"]["max_count"] + 1 - len(plan["steps"]))]
+    short = dict(
+        at,
+        start=[e - 0.001 * f(at["direction"]) for e, f in zip(end(at), (math.cos, math.sin))],
+        length=0.001,
+    )
+    plan["steps"] += [
+        {"push": dict(short)} for _ in range(task["pushes"]["max_count"] + 1 - len(plan["steps"]))
+    ]
 
 
 def goal(plan, task, push):
@@ -74,11 +84,15 @@ def main():
     parser.add_argument("plans", type=Path, help="folder of working plans")
     parser.add_argument("--out", type=Path, required=True, help="folder of the edited plans")
     parser.add_argument("--verify", required=True, help="path of the program")
-    parser.add_argument("--count", type=int, default=20, help="number of plans for each edit; default 20")
+    parser.add_argument(
+        "--count", type=int, default=20, help="number of plans for each edit; default 20"
+    )
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
     # Names like `NAME.failed.plan.json` are unsolved plans.
-    plans = [path for path in sorted(arguments.plans.glob("*.plan.json")) if path.name.count(".") == 2]
+    plans = [
+        path for path in sorted(arguments.plans.glob("*.plan.json")) if path.name.count(".") == 2
+    ]
     plans = plans[:: max(1, len(plans) // arguments.count)][: arguments.count]
     wrong = 0
     for name, edit in EDITS.items():
@@ -89,13 +103,16 @@ def main():
             edit(edited["plan"], edited["task"], edited["plan"]["steps"][0]["push"])
             at = arguments.out / f"{name}-{path.name}"
             at.write_text(json.dumps(edited))
-            done = subprocess.run([arguments.verify, "verify", at, "--quiet"], capture_output=True, text=True)
+            done = subprocess.run(
+                [arguments.verify, "verify", at, "--quiet"], capture_output=True, text=True
+            )
             codes[done.returncode] = codes.get(done.returncode, 0) + 1
             if done.returncode == 0:
                 wrong += 1
                 print(f"  {at.name}: passes", flush=True)
-        said = {0: "pass", 3: "refused", 5: "fail", 7: "fragile"}
-        print(f"{name}: {', '.join(f'{count} {said.get(code, code)}' for code, count in sorted(codes.items()))}", flush=True)
+        verdicts = {0: "pass", 3: "refused", 5: "fail", 7: "fragile"}
+        counts = [f"{count} {verdicts.get(code, code)}" for code, count in sorted(codes.items())]
+        print(f"{name}: {', '.join(counts)}", flush=True)
     print(f"{wrong} of {len(EDITS) * len(plans)} pass")
     return 1 if wrong else 0
 

@@ -5,9 +5,9 @@
     python3 crates/lab/benches/impossible.py --out impossible --solve target/release/pushplan
     python3 crates/lab/benches/impossible.py --out impossible --solve target/release/pushplan --run
 
-A planner that solves one of them is wrong, also in closed loop (`--run`), where masses and frictions are random
-and unknown. An error before planning is also correct. Lengths are in metres, masses in kilograms. Only Python is
-needed. The exit code is 0 if no task is solved.
+A planner that solves one of them is wrong, also in closed loop (`--run`), where masses and
+frictions are random and unknown. An error before planning is also correct. Lengths are in metres,
+masses in kilograms. Only Python is needed. The exit code is 0 if no task is solved.
 """
 
 import argparse
@@ -47,7 +47,10 @@ class Draw:
 
     def thing(self, name, shape, x, y, yaw=0.0, mass=None):
         mass = self.u(0.1, 1.0) if mass is None else mass
-        self.objects.append(f"{{name: {name}, shape: {{{shape}}}, mass: {num(mass)}, friction: 0.4, {self.place(x, y, yaw)}}}")
+        self.objects.append(
+            f"{{name: {name}, shape: {{{shape}}}, mass: {num(mass)}, friction: 0.4, "
+            f"{self.place(x, y, yaw)}}}"
+        )
 
     def can(self, x, y, r, height=0.08, name="can", mass=None):
         self.thing(name, f"cylinder: {{radius: {num(r)}, height: {num(height)}}}", x, y, 0.0, mass)
@@ -57,7 +60,9 @@ class Draw:
 
     def wall(self, x, y, a, b, height=0.12, yaw=0.0):
         name = f"wall-{len(self.obstacles)}"
-        self.obstacles.append(f"{{name: {name}, size: [{num(a)}, {num(b)}, {num(height)}], {self.place(x, y, yaw)}}}")
+        self.obstacles.append(
+            f"{{name: {name}, size: [{num(a)}, {num(b)}, {num(height)}], {self.place(x, y, yaw)}}}"
+        )
 
     def pen(self, x, y, inner_x, inner_y, thick, height=0.12):
         """Adds four walls around a rectangle."""
@@ -72,19 +77,39 @@ class Draw:
 
     def goal(self, x, y, tolerance=0.02, object="can", heading=None):
         x, y = turned(x, y, self.turn)
-        more = "" if heading is None else f", heading_deg: {num(heading + math.degrees(self.turn))}, heading_tolerance_deg: 8"
-        self.goals.append(f"{{object: {object}, position: [{num(x)}, {num(y)}], tolerance: {tolerance}{more}}}")
+        more = (
+            ""
+            if heading is None
+            else f", heading_deg: {num(heading + math.degrees(self.turn))}"
+            ", heading_tolerance_deg: 8"
+        )
+        self.goals.append(
+            f"{{object: {object}, position: [{num(x)}, {num(y)}], tolerance: {tolerance}{more}}}"
+        )
 
     def text(self):
         listed = lambda items: "[" + ", ".join(items) + "]"
         goals = self.goals[0] if len(self.goals) == 1 else listed(self.goals)
-        return "\n".join([
-            "scene:", f"  table: {{{self.table}}}",
-            "  objects:", *(f"    - {one}" for one in self.objects),
-            *(["  joints:", *(f"    - {one}" for one in self.joints)] if self.joints else []),
-            *(["  obstacles:", *(f"    - {one}" for one in self.obstacles)] if self.obstacles else []),
-            f"robot: {{{self.robot}}}", f"tools: {self.tools}", f"pushes: {{{self.pushes}}}",
-            f"goal: {goals}", *self.more, ""])
+        return "\n".join(
+            [
+                "scene:",
+                f"  table: {{{self.table}}}",
+                "  objects:",
+                *(f"    - {one}" for one in self.objects),
+                *(["  joints:", *(f"    - {one}" for one in self.joints)] if self.joints else []),
+                *(
+                    ["  obstacles:", *(f"    - {one}" for one in self.obstacles)]
+                    if self.obstacles
+                    else []
+                ),
+                f"robot: {{{self.robot}}}",
+                f"tools: {self.tools}",
+                f"pushes: {{{self.pushes}}}",
+                f"goal: {goals}",
+                *self.more,
+                "",
+            ]
+        )
 
 
 def gap_by_little(d, turn=0.0):
@@ -191,7 +216,10 @@ def joint_limits(d):
     # A partner that cannot rotate in its pen as far as the goal requires.
     d.objects.pop()
     d.box(0.61, 0.0, 0.06, 0.06, name="partner")
-    d.joints[:] = [f"{{between: [partner, can], kind: revolute, at: [0.61, 0], limits_deg: [-{num(d.u(3, 8))}, {num(d.u(3, 8))}]}}"]
+    d.joints[:] = [
+        "{between: [partner, can], kind: revolute, at: [0.61, 0], "
+        f"limits_deg: [-{num(d.u(3, 8))}, {num(d.u(3, 8))}]}}"
+    ]
     d.goals.clear()
     angle = d.rng.choice([-1, 1]) * d.u(0.6, 1.0)
     d.goal(0.61 - 0.11 * math.cos(angle), 0.11 * math.sin(angle), 0.015)
@@ -294,12 +322,20 @@ def ring_of_pegs(d):
     side = 2 * r * d.u(0.75, 0.95) + 0.012
     ring = side / (2 * math.sin(math.pi / n))
     for k in range(n):
-        d.wall(0.68 + ring * math.cos(math.tau * (k + 0.5) / n), ring * math.sin(math.tau * (k + 0.5) / n), 0.012, 0.012, 0.12, 360 * (k + 0.5) / n)
+        d.wall(
+            0.68 + ring * math.cos(math.tau * (k + 0.5) / n),
+            ring * math.sin(math.tau * (k + 0.5) / n),
+            0.012,
+            0.012,
+            0.12,
+            360 * (k + 0.5) / n,
+        )
     d.goal(0.68, 0.0)
 
 
 def long_box_locked_in(d):
-    # A corner that is too tight: a box longer than 2.83 w does not pass between two lanes of width w.
+    # A corner that is too tight: a box longer than 2.83 w does not pass between two lanes of width
+    # w.
     w = d.u(0.065, 0.08)
     a, b = w * d.u(2.9, 3.3), 0.8 * w
     d.box(0.5, 0.0, a, b)
@@ -313,10 +349,31 @@ def long_box_locked_in(d):
 
 
 KINDS = [
-    gap_by_little, turned_gap, prism_gap, closed_pen, kerb, thing_inside_a_kerb, goal_in_a_block, wedge,
-    pocket_without_room, pen_smaller_than_tools, crate_between_posts, penned_partner, joint_limits,
-    no_room_for_two, heading_in_a_lane, square_in_a_lane, weak_arm, crate_behind, goal_off_the_table,
-    over_the_edge, topples, over_its_head, hand_in_a_block, home_in_a_ring, ring_of_pegs,
+    gap_by_little,
+    turned_gap,
+    prism_gap,
+    closed_pen,
+    kerb,
+    thing_inside_a_kerb,
+    goal_in_a_block,
+    wedge,
+    pocket_without_room,
+    pen_smaller_than_tools,
+    crate_between_posts,
+    penned_partner,
+    joint_limits,
+    no_room_for_two,
+    heading_in_a_lane,
+    square_in_a_lane,
+    weak_arm,
+    crate_behind,
+    goal_off_the_table,
+    over_the_edge,
+    topples,
+    over_its_head,
+    hand_in_a_block,
+    home_in_a_ring,
+    ring_of_pegs,
     long_box_locked_in,
 ]
 
@@ -329,7 +386,11 @@ def main():
     parser.add_argument("--kind", action="append", help="only this kind, repeatable; default all")
     parser.add_argument("--solve", help="path of the program that solves the tasks; default none")
     parser.add_argument("--effort", default="standard", help="search effort; default standard")
-    parser.add_argument("--run", action="store_true", help="run the tasks in closed loop, with unknown masses and frictions")
+    parser.add_argument(
+        "--run",
+        action="store_true",
+        help="run the tasks in closed loop, with unknown masses and frictions",
+    )
     arguments = parser.parse_args()
     verb = ["run", "--world", "1"] if arguments.run else ["solve"]
     arguments.out.mkdir(parents=True, exist_ok=True)
@@ -347,15 +408,37 @@ def main():
             path = arguments.out / f"{name}-{k:02}.yaml"
             path.write_text(draw.text())
             if arguments.solve:
-                command = [arguments.solve, *verb, path, "--effort", arguments.effort, "--quiet", "--threads", "1", "--out", arguments.out / "plans"]
+                command = [
+                    arguments.solve,
+                    *verb,
+                    path,
+                    "--effort",
+                    arguments.effort,
+                    "--quiet",
+                    "--threads",
+                    "1",
+                    "--out",
+                    arguments.out / "plans",
+                ]
                 done = subprocess.run(command, capture_output=True, text=True)
                 codes[done.returncode] = codes.get(done.returncode, 0) + 1
-                if done.returncode == 0 and (not arguments.run or ": reached" in done.stdout.splitlines()[0]):
+                if done.returncode == 0 and (
+                    not arguments.run or ": reached" in done.stdout.splitlines()[0]
+                ):
                     wrong += 1
                     print(f"  {path.name}: {done.stdout.splitlines()[0]}", flush=True)
         if arguments.solve:
-            said = {0: "solved", 3: "refused", 4: "no plan", 5: "failed or fragile", 8: "partial"}
-            counts = ", ".join(f"{count} {said.get(code, f'exit {code}')}" for code, count in sorted(codes.items()))
+            verdicts = {
+                0: "solved",
+                3: "refused",
+                4: "no plan",
+                5: "failed or fragile",
+                8: "partial",
+            }
+            counts = ", ".join(
+                f"{count} {verdicts.get(code, f'exit {code}')}"
+                for code, count in sorted(codes.items())
+            )
             print(f"{name}: {counts}", flush=True)
     if arguments.solve:
         print(f"{wrong} called solved")

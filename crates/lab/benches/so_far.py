@@ -3,7 +3,8 @@
 
     crates/lab/benches/so_far.py            # the shipped tasks; PUSHPLAN names another binary
 
-Times are wall-clock seconds from the start of the process, so the machine must be idle. Only Python is needed.
+Times are wall-clock seconds from the start of the process, so the machine must be idle. Only Python
+is needed.
 """
 
 import os
@@ -46,7 +47,9 @@ def main():
         print(f"{name}: {1e3 * first:.0f} of {1e3 * whole:.0f} ms")
     firsts = [first for _, first, _ in rows]
     soon = sum(first <= 0.1 for first in firsts)
-    print(f"{len(rows)} tasks: median {1e3 * statistics.median(firsts):.0f} ms, {soon} within 100 ms")
+    print(
+        f"{len(rows)} tasks: median {1e3 * statistics.median(firsts):.0f} ms, {soon} within 100 ms"
+    )
 
 
 if __name__ == "__main__":

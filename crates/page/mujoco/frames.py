@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Replays motions exported by pushplan in MuJoCo and reports the poses of all objects, frame by frame.
+"""Replays motions exported by pushplan in MuJoCo and reports the poses of all objects, frame by
+frame.
 
-Reads one line of JSON for each motion from stdin: {"scene": MJCF, "frames": [n, ...]}, where n is the
-number of frames of a push. Writes one line for each to stdout: {"frames": [...]}, or {"failed": reason}.
-A frame has `time`, `stroke` and, for each of the `objects` in the order of the scene, x, y, heading and
-their velocities. The first line of stdout is the version of MuJoCo. `replay.py` must be in the same folder.
-Units are metres, seconds and radians.
+Reads one line of JSON for each motion from stdin: {"scene": MJCF, "frames": [n, ...]}, where n is
+the number of frames of a push. Writes one line for each to stdout: {"frames": [...]}, or {"failed":
+reason}. A frame has `time`, `stroke` and, for each of the `objects` in the order of the scene, x,
+y, heading and their velocities. The first line of stdout is the version of MuJoCo. `replay.py` must
+be in the same folder. Units are metres, seconds and radians.
 """
 
 import json

@@ -1,7 +1,7 @@
 
 
-# Checks of goals, which the scene holds as JSON. A check is a quantity with limits, or a minimum number of
-# goals of a group.
+# Checks of goals, which the scene holds as JSON. A check is a quantity with limits, or a minimum
+# number of goals of a group.
 
 
 def judged(check, scene):
@@ -39,7 +39,8 @@ def distance(scene, object, to, frame=None):
 
 
 def turn(scene, object, heading, symmetry, frame=None, middle=None):
-    """Returns the rotation from the nearest equivalent heading; headings are nearest to `middle`, if it is given."""
+    """Returns the rotation from the nearest equivalent heading; headings are nearest to `middle`,
+    if it is given."""
     found = scene.seen(object, frame)[2]
     if middle is not None:
         return abs(middle + math.remainder(found - middle, math.tau) - heading)
@@ -57,8 +58,8 @@ def beyond(scene, object, corners, frame=None):
 
 
 def over(scene, object, centre, edges, part=None):
-    """Returns how far the centre of mass of a fallen object is beyond the wanted edge, metres. If only a part of the
-    edge counts, the distance from the ends of this part is a limit as well."""
+    """Returns how far the centre of mass of a fallen object is beyond the wanted edge, metres. If
+    only a part of the edge counts, the distance from the ends of this part is a limit as well."""
     if not scene.has_left(object):
         return -math.inf
     edges = np.array(edges)
@@ -80,7 +81,8 @@ def outlines(pieces, pose):
 
 
 def gap(scene, object, own, others, other=None):
-    """Returns the smallest distance between the outlines of an object and another body; 0 if they overlap."""
+    """Returns the smallest distance between the outlines of an object and another body; 0 if they
+    overlap."""
     there = outlines(others, [0, 0, 0] if other is None else scene.seen(other))
     return min(apart(a, b) for a in outlines(own, scene.seen(object)) for b in there)
 
@@ -94,7 +96,8 @@ def apart(first, second):
         along = np.clip(np.sum(off * sides, axis=2) / np.sum(sides * sides, axis=1), 0.0, 1.0)
         return np.linalg.norm(off - along[..., None] * sides, axis=2).min()
 
-    def separates(corners, points):  # whether an edge of the first polygon separates it from the second
+    # Whether an edge of the first polygon separates it from the second.
+    def separates(corners, points):
         sides = np.roll(corners, -1, axis=0) - corners
         outwards = np.stack([sides[:, 1], -sides[:, 0]], axis=1)
         beyond = np.sum((points[:, None] - corners) * outwards, axis=2)
@@ -130,8 +133,8 @@ def covered(scene, object, at, pieces, frame=None):
 
 
 def raised(scene, object):
-    """Returns how far the last lever-up lifted the edge of an object, metres. Contact with the blade is not
-    checked."""
+    """Returns how far the last lever-up lifted the edge of an object, metres. Contact with the
+    blade is not checked."""
     return scene.lifted(object)
 
 
@@ -141,8 +144,14 @@ def tilt(scene, object):
 
 
 QUANTITIES = {
-    "distance": distance, "turn": turn, "beyond": beyond, "over": over, "gap": gap, "covered": covered,
-    "raised": raised, "tilt": tilt,
+    "distance": distance,
+    "turn": turn,
+    "beyond": beyond,
+    "over": over,
+    "gap": gap,
+    "covered": covered,
+    "raised": raised,
+    "tilt": tilt,
 }
 
 

@@ -4,11 +4,11 @@
     python3 lever.py SCENE.xml ... > results.jsonl
     python3 lever.py --against ours.jsonl --played results.jsonl
 
-Needs Python 3.11 and `pip install mujoco`. Prints one line of JSON for each scene: `lift`, the poses of the
-levered plate at equal intervals of the last rotation; `rest`, its final pose; and, for a plan with a goal,
-`reached`. A pose is x, y, z and the quaternion w, x, y, z. With `--against`, the output of `pushplan-learn
-generate --format mjcf` for the same scenes, it finally prints the differences to stderr. `--played` reads
-lines written earlier.
+Needs Python 3.11 and `pip install mujoco`. Prints one line of JSON for each scene: `lift`, the
+poses of the levered plate at equal intervals of the last rotation; `rest`, its final pose; and, for
+a plan with a goal, `reached`. A pose is x, y, z and the quaternion w, x, y, z. With `--against`,
+the output of `pushplan-learn generate --format mjcf` for the same scenes, it finally prints the
+differences to stderr. `--played` reads lines written earlier.
 """
 
 import argparse
@@ -58,7 +58,8 @@ class Hand:
         self.put([50 + self.position, 0, 0], [1, 0, 0, 0])
 
     def go(self, pose, time, dt):
-        """Sets pose and velocity for a step from `time`; `pose` maps a time to position and rotation."""
+        """Sets pose and velocity for a step from `time`; `pose` maps a time to position and
+        rotation."""
         (at, turn), (later, after) = pose(time), pose(time + dt)
         if np.dot(turn, after) < 0:
             after = -after
@@ -178,7 +179,10 @@ class Scene:
     def pushes(self, k):
         lift, *strokes = self.numbers[f"pushes {k}"]
         for first in range(0, len(strokes), 8):
-            start, end = np.array(strokes[first : first + 3]), np.array(strokes[first + 3 : first + 6])
+            start, end = (
+                np.array(strokes[first : first + 3]),
+                np.array(strokes[first + 3 : first + 6]),
+            )
             duration, settle = strokes[first + 6 : first + 8]
             began = self.time
 
@@ -257,7 +261,8 @@ def main():
     if differences:
         middle = [statistics.median(column) for column in zip(*differences)]
         print(
-            "{} lever-ups, median differences: during the rotation {:.2f} mm, at its end {:.2f} mm and "
+            "{} lever-ups, median differences: during the rotation {:.2f} mm, at its end {:.2f} mm "
+            "and "
             "{:.2f} degrees, at rest {:.2f} mm".format(len(differences), *middle),
             file=sys.stderr,
         )

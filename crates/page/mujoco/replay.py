@@ -8,10 +8,11 @@
 Needs Python 3.11 and `pip install mujoco`; the scenes hold everything else. A line of JSON for each
 plan goes to stdout, a table for several to stderr; the exit code is 0 if all of them work.
 
-A plan works if all objects are at rest at the end and the goal object is within the tolerance of position and,
-if the goal has one, heading, or has fallen over the right edge. Meanwhile no other object may topple, the
-tool may not be set down on an object, and no object may enter an obstacle by 2 mm. An arm in the scene is
-driven by servos alone along its joint trajectory, and may not collide. Lengths are in metres, angles in radians.
+A plan works if all objects are at rest at the end and the goal object is within the tolerance of
+position and, if the goal has one, heading, or has fallen over the right edge. Meanwhile no other
+object may topple, the tool may not be set down on an object, and no object may enter an obstacle by
+2 mm. An arm in the scene is driven by servos alone along its joint trajectory, and may not collide.
+Lengths are in metres, angles in radians.
 """
 
 import argparse
@@ -70,7 +71,7 @@ class Arm:
         place = h[0] * a + h[1] * dt * v + h[2] * b + h[3] * dt * w
         return place, (d[0] * a + d[2] * b) / dt + d[1] * v + d[3] * w
 
-    def tell(self, data, time):
+    def command(self, data, time):
         """Sets the targets of the servos for this time."""
         place, speed = self.at(time)
         self.off = max(self.off, float(np.abs(data.qpos[self.position] - place).max()))
@@ -106,7 +107,9 @@ class Replay:
         if not self.arm:
             self.take(0)
         self.texts = texts(self.model)
-        self.loose = [b for name, b in self.objects.items() if f"may fall of {name}" in self.numbers]
+        self.loose = [
+            b for name, b in self.objects.items() if f"may fall of {name}" in self.numbers
+        ]
         self.upright = [body for body in self.bodies if body not in self.loose]
         mujoco.mj_kinematics(self.model, self.data)
         self.heights = self.data.xpos[:, 2].copy()
@@ -157,9 +160,9 @@ class Replay:
         self.data.qpos[self.arm.position] = self.arm.points[0]
         mujoco.mj_forward(self.model, self.data)
         for k in range(math.ceil(self.arm.times[-1] / self.step)):
-            self.arm.tell(self.data, k * self.step)
+            self.arm.command(self.data, k * self.step)
             self.advance()
-        self.arm.tell(self.data, self.arm.times[-1])
+        self.arm.command(self.data, self.arm.times[-1])
         self.rest(self.advance)
 
     def set_down(self, place):
@@ -172,7 +175,8 @@ class Replay:
             raise Failed("set down on an object")
 
     def lift_off(self, start, end, duration, back):
-        """Moves the tool back along the push by `back`, then lifts it. Objects that stick to it move along."""
+        """Moves the tool back along the push by `back`, then lifts it. Objects that stick to it
+        move along."""
         way = np.linalg.norm(end[:2] - start[:2])
         if back == 0.0 or way == 0.0:
             return
@@ -205,7 +209,8 @@ class Replay:
             waited += 1
 
     def place(self, place, velocity, height=0.0, rises=0.0):
-        # The tool also needs a velocity; otherwise its contacts would have the friction of a resting tool.
+        # The tool also needs a velocity; otherwise its contacts would have the friction of a
+        # resting tool.
         self.data.qpos[self.tool_position] = place
         self.data.qvel[self.tool_velocity] = velocity
         for joint in self.tool_height:

@@ -23,8 +23,11 @@ _TREE = "tf2_msgs/msg/TFMessage"
 #: Message types from which poses are read; for the last type, the topic is followed by `#` and the
 #: child frame.
 _POSES = {
-    "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PoseWithCovarianceStamped", "nav_msgs/msg/Odometry",
-    "geometry_msgs/msg/TransformStamped", _TREE,
+    "geometry_msgs/msg/PoseStamped",
+    "geometry_msgs/msg/PoseWithCovarianceStamped",
+    "nav_msgs/msg/Odometry",
+    "geometry_msgs/msg/TransformStamped",
+    _TREE,
 }
 
 
@@ -41,15 +44,22 @@ def own(path: Path) -> dict[str, Any]:
             if channel.message_encoding == "json":
                 frames.append(json.loads(message.data))
     if plan is None or not frames:
-        raise ValueError(f"{path}: found no plan of pushplan with its /state; for a ROS 2 bag, set `topics`")
+        raise ValueError(
+            f"{path}: found no plan of pushplan with its /state; for a ROS 2 bag, set `topics`"
+        )
     steps = [step.get("push") for step in plan["plan"]["steps"]]
     names = {step["tool"] for step in steps if step}
     if None in steps or len(names) != 1:
-        raise ValueError(f"{path}: a recording needs pushes with one tool; export a plan without other steps")
+        raise ValueError(
+            f"{path}: a recording needs pushes with one tool; export a plan without other steps"
+        )
     [tool] = [tool for tool in plan["tools"] if tool["name"] in names]
     written = []
     for k, frame in enumerate(frames):
-        one = {"pusher": _degrees(frame["tool"]), "objects": [_degrees(thing) for thing in frame["objects"]]}
+        one = {
+            "pusher": _degrees(frame["tool"]),
+            "objects": [_degrees(thing) for thing in frame["objects"]],
+        }
         before = frames[k - 1]["push"] if k else frame["push"]
         if frame["push"] != before and steps[frame["push"]]["form"] == "placed":
             one["lifted"] = True
@@ -79,7 +89,10 @@ def poses_of(path: Path, topics: Mapping[str, str]) -> dict[str, tuple[_Floats, 
         for title in wanted:
             if title in known and known[title] not in _POSES:
                 kind = known[title] or "unknown"
-                raise ValueError(f"{path}: {title} has the type {kind}; expected one of {', '.join(sorted(_POSES))}")
+                raise ValueError(
+                    f"{path}: {title} has the type {kind}; expected one of "
+                    f"{', '.join(sorted(_POSES))}"
+                )
         for schema, channel, _, message in reader.iter_decoded_messages(topics=list(wanted)):
             for child, row in _poses(message.transforms if schema.name == _TREE else [message]):
                 for name, asked in wanted[channel.topic]:
@@ -88,7 +101,9 @@ def poses_of(path: Path, topics: Mapping[str, str]) -> dict[str, tuple[_Floats, 
     for name, rows in found.items():
         if len(rows) < 2:
             there = ", ".join(f"{topic} ({kind})" for topic, kind in sorted(known.items()))
-            raise ValueError(f"{path}: {topics[name]} has {len(rows)} poses for `{name}`; the file has {there}")
+            raise ValueError(
+                f"{path}: {topics[name]} has {len(rows)} poses for `{name}`; the file has {there}"
+            )
     # A repeated stamp is the same pose.
     tables = {name: np.array(sorted(set(rows))) for name, rows in found.items()}
     return {name: (table[:, 0], table[:, 1:]) for name, table in tables.items()}
@@ -124,7 +139,9 @@ def _topics(reader: Any) -> dict[str, str]:
     if summary is None:
         return {}
     kinds = {number: schema.name for number, schema in summary.schemas.items()}
-    return {channel.topic: kinds.get(channel.schema_id, "") for channel in summary.channels.values()}
+    return {
+        channel.topic: kinds.get(channel.schema_id, "") for channel in summary.channels.values()
+    }
 
 
 def _reader(file: IO[bytes]) -> Any:
@@ -132,5 +149,7 @@ def _reader(file: IO[bytes]) -> Any:
         from mcap.reader import make_reader
         from mcap_ros2.decoder import DecoderFactory
     except ImportError as error:
-        raise ImportError("reading MCAP files needs two packages: pip install 'pushplan[mcap]'") from error
+        raise ImportError(
+            "reading MCAP files needs two packages: pip install 'pushplan[mcap]'"
+        ) from error
     return make_reader(file, decoder_factories=[DecoderFactory()])

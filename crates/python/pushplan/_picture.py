@@ -39,7 +39,11 @@ class Picture:
         self.y = np.broadcast_to(middle[1] - steps[None, :], (len(steps), len(steps)))
 
     def of(
-        self, poses: _Floats, goal: Sequence[float], tolerance: float, tool: Optional[tuple[Tool, _Pose]] = None
+        self,
+        poses: _Floats,
+        goal: Sequence[float],
+        tolerance: float,
+        tool: Optional[tuple[Tool, _Pose]] = None,
     ) -> npt.NDArray[np.uint8]:
         """Returns the image ``[size, size, 3]`` with the objects, and the tool if given, at these
         poses (x, y, heading)."""
@@ -59,7 +63,12 @@ class Picture:
                 at = pose if part is thing else _placed(pose, part)
                 self._fill(pixels, at, part["shape"], _WANTED if k == self.wanted else _OTHER)
             # Mark of the heading.
-            self._fill(pixels, _placed(pose, {"position": [0.012, 0.0]}), {"cuboid": {"size": [0.024, 0.005]}}, _PAPER)
+            self._fill(
+                pixels,
+                _placed(pose, {"position": [0.012, 0.0]}),
+                {"cuboid": {"size": [0.024, 0.005]}},
+                _PAPER,
+            )
         if tool is not None:
             parts: Any = tool[0].to_dict()["parts"]
             for part in parts:
@@ -68,7 +77,9 @@ class Picture:
         fine = pixels.reshape(self.size, _FINER, self.size, _FINER, 3)
         return np.asarray(fine.mean(axis=(1, 3)).round(), np.uint8)
 
-    def _fill(self, pixels: npt.NDArray[np.uint8], pose: _Pose, shape: Any, colour: Sequence[int]) -> None:
+    def _fill(
+        self, pixels: npt.NDArray[np.uint8], pose: _Pose, shape: Any, colour: Sequence[int]
+    ) -> None:
         c, s = math.cos(pose[2]), math.sin(pose[2])
         x = c * (self.x - pose[0]) + s * (self.y - pose[1])
         y = c * (self.y - pose[1]) - s * (self.x - pose[0])
@@ -89,7 +100,11 @@ def _placed(pose: _Pose, part: Any) -> tuple[float, float, float]:
     """Returns the pose of a part of a body with this pose."""
     x, y = part["position"][:2]
     c, s = math.cos(pose[2]), math.sin(pose[2])
-    return pose[0] + c * x - s * y, pose[1] + s * x + c * y, pose[2] + math.radians(part.get("yaw_deg", 0.0))
+    return (
+        pose[0] + c * x - s * y,
+        pose[1] + s * x + c * y,
+        pose[2] + math.radians(part.get("yaw_deg", 0.0)),
+    )
 
 
 def _about_centre(prism: Any) -> _Floats:

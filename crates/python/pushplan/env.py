@@ -51,13 +51,25 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
     metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array", "html"], "render_fps": 10}  # type: ignore[misc]
 
     def __init__(
-        self, task: Task, model: str, steps: int, spread: float, goal_spread: float, render_mode: str | None, more: int = 0
+        self,
+        task: Task,
+        model: str,
+        steps: int,
+        spread: float,
+        goal_spread: float,
+        render_mode: str | None,
+        more: int = 0,
     ) -> None:
         if render_mode not in (None, *self.metadata["render_modes"]):
-            raise ValueError(f'`render_mode` must be "rgb_array", "html" or None, found {render_mode!r}')
+            raise ValueError(
+                f'`render_mode` must be "rgb_array", "html" or None, found {render_mode!r}'
+            )
         goal: Any = task.to_dict()["goal"]
         if goal_spread > 0.0 and not (isinstance(goal, dict) and "position" in goal):
-            raise ValueError("`goal_spread` needs a task with one goal that has a `position`; set it to 0 for other tasks")
+            raise ValueError(
+                "`goal_spread` needs a task with one goal that has a `position`; set it to 0 for "
+                "other tasks"
+            )
         #: Task of this episode, with the drawn goal.
         self.task = task
         self.model, self.steps = model, steps
@@ -65,7 +77,10 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
         self.render_mode = render_mode
         self._given = task
         self._picture = Picture(task) if render_mode == "rgb_array" else None
-        most = np.array([FAR, FAR, 1.0, 1.0] * len(task.objects) + [FAR] * (5 * len(task.goal_objects) + more), dtype=np.float32)
+        most = np.array(
+            [FAR, FAR, 1.0, 1.0] * len(task.objects) + [FAR] * (5 * len(task.goal_objects) + more),
+            dtype=np.float32,
+        )
         self.observation_space = gymnasium.spaces.Box(-most, most, dtype=np.float32)
         self._poses = task.start
         self._first = task.score(self._poses)
@@ -95,7 +110,9 @@ class _TableEnv(gymnasium.Env[_Action, _Action]):
             return None if self._last is None else self._last.page()
         if self._picture is None:
             return None
-        return self._picture.of(self._poses, self.task.goal_position, self.task.tolerance, self._held())
+        return self._picture.of(
+            self._poses, self.task.goal_position, self.task.tolerance, self._held()
+        )
 
     def _held(self) -> tuple[Tool, npt.NDArray[np.float64]] | None:
         """Returns the tool on the table and its pose, or ``None``."""
@@ -266,7 +283,9 @@ class PushEnv(_TableEnv):
 
     def _target(self) -> str:
         """Returns the object of the first unreached goal."""
-        goals = zip(self.task.goal_subjects(self._poses), self.task.reached(self._poses), strict=True)
+        goals = zip(
+            self.task.goal_subjects(self._poses), self.task.reached(self._poses), strict=True
+        )
         return next((name for name, reached in goals if not reached), self.task.goal_object)
 
     def _plan(self, action: _Action) -> Plan:

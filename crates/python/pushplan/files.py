@@ -14,16 +14,46 @@ import numpy.typing as npt
 
 if sys.version_info >= (3, 11):
     from typing import NotRequired
-else:
+if sys.version_info < (3, 11):
     from typing_extensions import NotRequired
 
 __all__ = [
-    "AreaKeys", "BladeKeys", "CircleKeys", "CostedToolKeys", "CuboidKeys", "CylinderKeys", "EdgeKeys",
-    "FrictionKeys", "GoalKeys", "GoalRegionKeys", "GripKeys", "HandKeys", "JointKeys",
-    "KeepKeys", "LeversKeys", "Numbers", "ObjectKeys", "ObjectPartKeys",
-    "ObjectPrismKeys", "ObjectShapeKeys", "ObstacleKeys", "PartKeys", "PolygonKeys",
-    "PrismKeys", "PushKeys", "ReachKeys", "RectangleKeys", "RegionKeys", "RobotKeys",
-    "SceneKeys", "ShapeKeys", "StandKeys", "SupportKeys", "TableKeys", "TaskFile", "ToolFile",
+    "AreaKeys",
+    "BladeKeys",
+    "CircleKeys",
+    "CostedToolKeys",
+    "CuboidKeys",
+    "CylinderKeys",
+    "EdgeKeys",
+    "FrictionKeys",
+    "GoalKeys",
+    "GoalRegionKeys",
+    "GripKeys",
+    "HandKeys",
+    "JointKeys",
+    "KeepKeys",
+    "LeversKeys",
+    "Numbers",
+    "ObjectKeys",
+    "ObjectPartKeys",
+    "ObjectPrismKeys",
+    "ObjectShapeKeys",
+    "ObstacleKeys",
+    "PartKeys",
+    "PolygonKeys",
+    "PrismKeys",
+    "PushKeys",
+    "ReachKeys",
+    "RectangleKeys",
+    "RegionKeys",
+    "RobotKeys",
+    "SceneKeys",
+    "ShapeKeys",
+    "StandKeys",
+    "SupportKeys",
+    "TableKeys",
+    "TaskFile",
+    "ToolFile",
     "ToolMountKeys",
 ]
 

@@ -85,13 +85,18 @@ def save(
         raise FileExistsError(f"{folder} exists already; choose a new folder")
     if not (isinstance(fps, int) and 1 <= fps <= 1000):
         raise ValueError(f"`fps` must be a whole number from 1 to 1000, found {fps!r}")
-    taken = [_of_run(one, fps) if isinstance(one, Run) else _of_trajectory(*one, fps) for one in episodes]
+    taken = [
+        _of_run(one, fps) if isinstance(one, Run) else _of_trajectory(*one, fps) for one in episodes
+    ]
     if not taken:
         raise ValueError("`episodes` is empty; a data set needs one episode or more")
     names = taken[0].names
     for one in taken:
         if one.names != names:
-            raise ValueError(f"all episodes must have the same objects, found {names} and {one.names}; write one data set for each")
+            raise ValueError(
+                f"all episodes must have the same objects, found {names} and {one.names}; write "
+                "one data set for each"
+            )
     words = list(dict.fromkeys(one.words for one in taken))
     features = _features(names)
     columns: dict[str, list[Any]] = {name: [] for name in features}
@@ -173,7 +178,9 @@ def _pyarrow() -> tuple[Any, Any]:
         import pyarrow  # type: ignore[import-not-found,import-untyped,unused-ignore]
         import pyarrow.parquet  # type: ignore[import-not-found,import-untyped,unused-ignore]
     except ImportError as error:
-        raise ImportError("LeRobot data sets need the package pyarrow: pip install 'pushplan[lerobot]'") from error
+        raise ImportError(
+            "LeRobot data sets need the package pyarrow: pip install 'pushplan[lerobot]'"
+        ) from error
     return pyarrow.parquet, pyarrow
 
 
@@ -196,7 +203,11 @@ def _of_trajectory(task: Task, trajectory: Trajectory, fps: int) -> _Episode:
     poses = trajectory.poses.reshape(len(times), -1)
     mapping: Any = task.to_dict()
     return _Episode(
-        _words(mapping), trajectory.objects, _at(steps, times, tool), _at(steps, times, poses), trajectory.reached
+        _words(mapping),
+        trajectory.objects,
+        _at(steps, times, tool),
+        _at(steps, times, poses),
+        trajectory.reached,
     )
 
 
@@ -231,7 +242,9 @@ def _pose(pose: Any) -> list[float]:
 def _seen(sights: Any) -> _Floats:
     """Returns the observed pose of every object, NaN for missing values."""
     rows = [
-        [np.nan] * 3 if sight is None else [*sight["position"], np.nan if sight["heading"] is None else sight["heading"]]
+        [np.nan] * 3
+        if sight is None
+        else [*sight["position"], np.nan if sight["heading"] is None else sight["heading"]]
         for sight in sights
     ]
     return np.array(rows)
@@ -277,7 +290,9 @@ def _features(names: list[str]) -> dict[str, Any]:
 
 def _stats(values: npt.NDArray[Any]) -> dict[str, list[float]]:
     numbers = values.reshape(len(values), -1).astype(np.float64)
-    quantiles = {f"q{share:02d}": np.quantile(numbers, share / 100, axis=0) for share in (1, 10, 50, 90, 99)}
+    quantiles = {
+        f"q{share:02d}": np.quantile(numbers, share / 100, axis=0) for share in (1, 10, 50, 90, 99)
+    }
     found = {
         "min": numbers.min(axis=0),
         "max": numbers.max(axis=0),
@@ -300,7 +315,11 @@ def _tasks(arrow: Any, words: list[str]) -> Any:
 
     def column(name: str, kind: str, numpy: str) -> dict[str, Any]:
         return {
-            "name": name, "field_name": name, "pandas_type": kind, "numpy_type": numpy, "metadata": None,
+            "name": name,
+            "field_name": name,
+            "pandas_type": kind,
+            "numpy_type": numpy,
+            "metadata": None,
         }
 
     index = {

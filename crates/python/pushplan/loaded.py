@@ -71,7 +71,13 @@ def scene_from(
         ElementTree.indent(written := _Written(model, data).root)
         ElementTree.ElementTree(written).write(path, encoding="unicode")
         return _native.import_task(
-            path, bodies=bodies, name=name, friction=friction, shift=shift, free=free, density=density
+            path,
+            bodies=bodies,
+            name=name,
+            friction=friction,
+            shift=shift,
+            free=free,
+            density=density,
         )
 
 
@@ -83,14 +89,20 @@ class _Written:
 
         now = mujoco.MjData(model)
         if data is not None:
-            now.qpos[:], now.mocap_pos[:], now.mocap_quat[:] = data.qpos, data.mocap_pos, data.mocap_quat
+            now.qpos[:], now.mocap_pos[:], now.mocap_quat[:] = (
+                data.qpos,
+                data.mocap_pos,
+                data.mocap_quat,
+            )
         mujoco.mj_kinematics(model, now)
         self.model, self.now = model, now
         self.paired = {*map(int, model.pair_geom1), *map(int, model.pair_geom2)}
         self.root = Element("mujoco", model=_text(model, "names", 0))
         SubElement(self.root, "compiler", angle="radian")
         self._option()
-        meshes = sorted({int(model.geom_dataid[g]) for g in range(model.ngeom) if model.geom_type[g] == _MESH})
+        meshes = sorted(
+            {int(model.geom_dataid[g]) for g in range(model.ngeom) if model.geom_type[g] == _MESH}
+        )
         asset = SubElement(self.root, "asset")
         for mesh in meshes:
             self._mesh(asset, mesh)
@@ -104,7 +116,11 @@ class _Written:
         for geom in range(model.ngeom):
             self._geom(elements[int(model.geom_bodyid[geom])], geom)
         self._contact()
-        for section, count in [("equality", model.neq), ("tendon", model.ntendon), ("actuator", model.nu)]:
+        for section, count in [
+            ("equality", model.neq),
+            ("tendon", model.ntendon),
+            ("actuator", model.nu),
+        ]:
             if count:
                 # Their content does not matter, because none is imported.
                 SubElement(SubElement(self.root, section), "general")
@@ -118,20 +134,26 @@ class _Written:
             density=repr(float(chosen.density)), viscosity=repr(float(chosen.viscosity)),
         )
         flag = SubElement(option, "flag")
-        for what in ("gravity", "contact", "constraint", "limit"):
-            if chosen.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{what.upper()}"):
-                flag.set(what, "disable")
+        for kind in ("gravity", "contact", "constraint", "limit"):
+            if chosen.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{kind.upper()}"):
+                flag.set(kind, "disable")
 
     def _mesh(self, asset: Element, mesh: int) -> None:
         model = self.model
         corners, faces = (
-            getattr(model, f"mesh_{of}")[getattr(model, f"mesh_{of}adr")[mesh] :][: getattr(model, f"mesh_{of}num")[mesh]]
+            getattr(model, f"mesh_{of}")[getattr(model, f"mesh_{of}adr")[mesh] :][
+                : getattr(model, f"mesh_{of}num")[mesh]
+            ]
             for of in ("vert", "face")
         )
         SubElement(
             # As in the file, before MuJoCo rotated them to their principal axes.
-            asset, "mesh", name=f"mesh {mesh}",
-            vertex=_numbers((corners @ _matrix(model.mesh_quat[mesh]).T + model.mesh_pos[mesh]).ravel()),
+            asset,
+            "mesh",
+            name=f"mesh {mesh}",
+            vertex=_numbers(
+                (corners @ _matrix(model.mesh_quat[mesh]).T + model.mesh_pos[mesh]).ravel()
+            ),
             face=" ".join(map(str, faces.ravel())),
         )
 
@@ -140,7 +162,11 @@ class _Written:
         above = int(model.body_parentid[body])
         place, turn = _seen((now.xpos[body], now.xquat[body]), (now.xpos[above], now.xquat[above]))
         element = SubElement(
-            parent, "body", name=model.body(body).name or f"body {body}", pos=_numbers(place), quat=_numbers(turn)
+            parent,
+            "body",
+            name=model.body(body).name or f"body {body}",
+            pos=_numbers(place),
+            quat=_numbers(turn),
         )
         if model.body_mocapid[body] >= 0:
             element.set("mocap", "true")
@@ -148,8 +174,12 @@ class _Written:
             element.set("gravcomp", repr(float(model.body_gravcomp[body])))
         if model.body_mass[body] > 0:
             SubElement(
-                element, "inertial", mass=repr(float(model.body_mass[body])), pos=_numbers(model.body_ipos[body]),
-                quat=_numbers(model.body_iquat[body]), diaginertia=_numbers(model.body_inertia[body]),
+                element,
+                "inertial",
+                mass=repr(float(model.body_mass[body])),
+                pos=_numbers(model.body_ipos[body]),
+                quat=_numbers(model.body_iquat[body]),
+                diaginertia=_numbers(model.body_inertia[body]),
             )
         first = int(model.body_jntadr[body])
         for joint in range(first, first + int(model.body_jntnum[body])):
@@ -180,7 +210,10 @@ class _Written:
         place, turn = model.geom_pos[geom], model.geom_quat[geom]
         if kind == _MESH:
             mesh = int(model.geom_dataid[geom])
-            back = _seen((np.zeros(3), np.array([1.0, 0, 0, 0])), (model.mesh_pos[mesh], model.mesh_quat[mesh]))
+            back = _seen(
+                (np.zeros(3), np.array([1.0, 0, 0, 0])),
+                (model.mesh_pos[mesh], model.mesh_quat[mesh]),
+            )
             place, turn = place + _matrix(turn) @ back[0], _product(turn, back[1])
         element = SubElement(
             body, "geom", type=_GEOMS[kind], pos=_numbers(place), quat=_numbers(turn),
@@ -200,11 +233,17 @@ class _Written:
         contact = SubElement(self.root, "contact")
         for pair in range(model.npair):
             SubElement(
-                contact, "pair", geom1=self._name(int(model.pair_geom1[pair])),
-                geom2=self._name(int(model.pair_geom2[pair])), friction=_numbers(model.pair_friction[pair]),
+                contact,
+                "pair",
+                geom1=self._name(int(model.pair_geom1[pair])),
+                geom2=self._name(int(model.pair_geom2[pair])),
+                friction=_numbers(model.pair_friction[pair]),
             )
         for signature in map(int, model.exclude_signature):
-            names = [model.body(body).name or f"body {body}" for body in (signature >> 16, signature & 0xFFFF)]
+            names = [
+                model.body(body).name or f"body {body}"
+                for body in (signature >> 16, signature & 0xFFFF)
+            ]
             SubElement(contact, "exclude", body1=names[0], body2=names[1])
 
     def _name(self, geom: int) -> str:

@@ -157,26 +157,39 @@ def read_mcap(
     path = Path(path)
     if topics is None:
         if scene is not None or pusher is not None:
-            raise ValueError("`scene` and `pusher` need `topics` (ROS 2 bag); leave them out for a file of `pushplan export`")
+            raise ValueError(
+                "`scene` and `pusher` need `topics` (ROS 2 bag); leave them out for a file of "
+                "`pushplan export`"
+            )
         return Recording.from_dict(_bags.own(path))
     if scene is None or pusher is None:
         raise ValueError("a ROS 2 bag contains only poses: set `scene` and `pusher`")
     names = [_PUSHER, *(str(thing["name"]) for thing in scene["objects"])]
     if set(topics) != set(names):
-        raise ValueError(f"`topics` must have the keys {', '.join(names)}, found {', '.join(topics)}")
+        raise ValueError(
+            f"`topics` must have the keys {', '.join(names)}, found {', '.join(topics)}"
+        )
     seen = _bags.poses_of(path, topics)
-    first, last = max(times[0] for times, _ in seen.values()), min(times[-1] for times, _ in seen.values())
+    first, last = (
+        max(times[0] for times, _ in seen.values()),
+        min(times[-1] for times, _ in seen.values()),
+    )
     stamps = seen[_PUSHER][0]
     stamps = stamps[(stamps >= first) & (stamps <= last)]
     if len(stamps) < 2:
-        raise ValueError(f"{path}: the times of {', '.join(names)} do not overlap; check the topics and their stamps")
+        raise ValueError(
+            f"{path}: the times of {', '.join(names)} do not overlap; check the topics and their "
+            "stamps"
+        )
     bodies = {}
     for name in names:
         times, poses = seen[name]
         poses = np.column_stack([poses[:, :2], np.degrees(np.unwrap(poses[:, 2]))])
         bodies[name] = np.column_stack([np.interp(stamps, times, column) for column in poses.T])
     times, lines = stamps - stamps[0], np.arange(1, len(stamps) + 1)
-    return Recording.from_dict(_recorded(path, (scene, pusher), (times, lines), bodies, "m", (start, end)))
+    return Recording.from_dict(
+        _recorded(path, (scene, pusher), (times, lines), bodies, "m", (start, end))
+    )
 
 
 def write_json(path: str | Path, csv_path: str | Path, **stated: Any) -> None:
@@ -200,7 +213,8 @@ def _mapping(
     length, angle, clock = units
     if length not in _LENGTHS or angle not in ("deg", "rad") or clock not in _TIMES:
         raise ValueError(
-            f"`length` must be {'/'.join(_LENGTHS)}, `angle` deg/rad and `clock` {'/'.join(_TIMES)}, "
+            f"`length` must be {'/'.join(_LENGTHS)}, `angle` deg/rad and `clock` "
+            f"{'/'.join(_TIMES)}, "
             f"found {length}, {angle} and {clock}"
         )
     names = [_PUSHER, *(str(thing["name"]) for thing in scene["objects"])]
@@ -236,8 +250,12 @@ def _recorded(
     begin, stop = cut[0] or 0.0, math.inf if cut[1] is None else cut[1]
     kept = (times >= begin) & (times <= stop)
     if kept.sum() < 2:
-        raise ValueError(f"{path}: fewer than two lines from {begin} to {stop} s; change `start` or `end`")
-    velocities = {name: _velocity(times, place, int(np.argmax(kept))) for name, place in bodies.items()}
+        raise ValueError(
+            f"{path}: fewer than two lines from {begin} to {stop} s; change `start` or `end`"
+        )
+    velocities = {
+        name: _velocity(times, place, int(np.argmax(kept))) for name, place in bodies.items()
+    }
     bodies = {name: place[kept] for name, place in bodies.items()}
     for name, place in bodies.items():
         _check_length(path, name, place[:, :2], length)
@@ -247,7 +265,8 @@ def _recorded(
     moved = max(float(np.ptp(place[:, :2], axis=0).max()) for place in bodies.values())
     if moved < _STILL:
         raise ValueError(
-            f"{path}: nothing moves by more than {1e3 * moved:.3f} mm; check `length`, here `{length}`"
+            f"{path}: nothing moves by more than {1e3 * moved:.3f} mm; check `length`, here "
+            f"`{length}`"
         )
     objects = [place for name, place in bodies.items() if name != _PUSHER]
     frames = [
@@ -259,7 +278,10 @@ def _recorded(
         "schema_version": 1,
         "kind": "recording",
         "name": Path(path).stem,
-        "scene": {**scene, "objects": [{**velocities[str(one["name"])], **one} for one in scene["objects"]]},
+        "scene": {
+            **scene,
+            "objects": [{**velocities[str(one["name"])], **one} for one in scene["objects"]],
+        },
         "pusher": dict(pusher),
         "times": (times - times[0]).tolist(),
         "frames": frames,
@@ -285,7 +307,9 @@ def _columns(path: Path, wanted: Sequence[str]) -> tuple[npt.NDArray[np.int64], 
         known = rows.fieldnames or []
         missing = [name for name in dict.fromkeys(wanted) if name not in known]
         if missing:
-            raise ValueError(f"{path}: no column {', '.join(missing)}; the file has {', '.join(known)}")
+            raise ValueError(
+                f"{path}: no column {', '.join(missing)}; the file has {', '.join(known)}"
+            )
         lines: list[int] = []
         found: dict[str, list[float]] = {name: [] for name in wanted}
         for row in rows:
@@ -297,7 +321,8 @@ def _columns(path: Path, wanted: Sequence[str]) -> tuple[npt.NDArray[np.int64], 
                     value = math.nan
                 if not math.isfinite(value):
                     raise ValueError(
-                        f"{path}:{rows.line_num}: `{name}` is {row[name]!r}; expected a finite number"
+                        f"{path}:{rows.line_num}: `{name}` is {row[name]!r}; expected a finite "
+                        "number"
                     )
                 found[name].append(value)
     if len(lines) < 2:
@@ -336,11 +361,14 @@ def _degrees(path: str | Path, name: str, heading: _Floats, angle: str) -> _Floa
             raise ValueError(f"{path}: the heading of `{name}` wraps at pi; set `angle` to `rad`")
         if 0.05 < float(np.ptp(heading)) and np.abs(heading).max() <= math.pi:
             warnings.warn(
-                f"{path}: all headings of `{name}` lie within 3.15 degrees; if they are radians, set `angle`",
+                f"{path}: all headings of `{name}` lie within 3.15 degrees; if they are radians, "
+                "set `angle`",
                 stacklevel=4,
             )
     elif np.abs(heading).max() > 4 * math.tau or bool((np.abs(steps - 360.0) < 20.0).any()):
-        raise ValueError(f"{path}: the heading of `{name}` is {np.abs(heading).max():.0f}; set `angle` to `deg`")
+        raise ValueError(
+            f"{path}: the heading of `{name}` is {np.abs(heading).max():.0f}; set `angle` to `deg`"
+        )
     return np.asarray(np.unwrap(heading, period=turn) * (360.0 / turn), dtype=np.float64)
 
 
@@ -380,6 +408,7 @@ def _check_stale(
             if jumps and goes:
                 raise ValueError(
                     f"{path}:{lines[first]}: the pose of `{name}` is constant for "
-                    f"{times[k] - times[first]:.2f} s during a motion, because the tracker lost it: "
+                    f"{times[k] - times[first]:.2f} s during a motion, because the tracker lost "
+                    "it: "
                     "cut the log there with `start` or `end`"
                 )

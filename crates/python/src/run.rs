@@ -210,9 +210,10 @@ impl PyRun {
 ///     If an argument is invalid. The function also raises the errors of `solve` and any
 ///     exception of `world`, which ends the run.
 #[pyfunction]
-#[pyo3(signature = (task, world, tools = None, *, effort = "draft", model = None, out_of_range = "warn",
-                    seed = 0, max_pushes = 12, samples = 16, min_success = 0.8,
-                    max_probes = 3, noise = None, fit = None, regulator = true, threads = 0))]
+#[pyo3(signature = (task, world, tools = None, *, effort = "draft", model = None,
+                    out_of_range = "warn", seed = 0, max_pushes = 12, samples = 16,
+                    min_success = 0.8, max_probes = 3, noise = None, fit = None,
+                    regulator = true, threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn run(
     py: Python<'_>,

@@ -83,9 +83,9 @@ use crate::{arguments, errors, work};
 /// >>> solution = pushplan.solve(task, effort="draft")
 /// >>> print(solution.status, solution.best)
 #[pyfunction]
-#[pyo3(signature = (task, tools = None, *, effort = "standard", model = None, out_of_range = "warn",
-                    seed = 0, replays = None, robustness = None, time_limit = None, fit = None,
-                    threads = 0))]
+#[pyo3(signature = (task, tools = None, *, effort = "standard", model = None,
+                    out_of_range = "warn", seed = 0, replays = None, robustness = None,
+                    time_limit = None, fit = None, threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn solve(
     py: Python<'_>,
@@ -138,9 +138,9 @@ pub fn stated(task: Arc<Task>, fit: Option<&TableFit>) -> Arc<Task> {
 /// PushplanError or ValueError
 ///     For the first task that `solve` would reject.
 #[pyfunction]
-#[pyo3(signature = (tasks, tools = None, *, effort = "standard", model = None, out_of_range = "warn",
-                    seed = 0, replays = None, robustness = None, time_limit = None, fit = None,
-                    threads = 0))]
+#[pyo3(signature = (tasks, tools = None, *, effort = "standard", model = None,
+                    out_of_range = "warn", seed = 0, replays = None, robustness = None,
+                    time_limit = None, fit = None, threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn solve_all(
     py: Python<'_>,

@@ -15,7 +15,9 @@ LAB = Path(__file__).resolve().parents[3] / "crates/lab/benches"
 
 
 @pytest.mark.parametrize("arm", ["panda", "ur5", "xarm7"])
-def test_pinocchio_finds_the_tool_where_the_plan_has_it(arm: str, tmp_path: Path, command: Any) -> None:
+def test_pinocchio_finds_the_tool_where_the_plan_has_it(
+    arm: str, tmp_path: Path, command: Any
+) -> None:
     sys.path.insert(0, str(LAB))
     arms: Any = pytest.importorskip("arms")
     found = arms.robots()

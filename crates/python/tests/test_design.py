@@ -44,7 +44,7 @@ def test_the_tool_is_that_of_the_command(command: Any, tmp_path: Any) -> None:
     assert design.tool.name in str(design) and design.tool.name in repr(design)
 
 
-def test_numbers_out_of_range_are_said(task: pushplan.Task) -> None:
+def test_numbers_out_of_range_are_reported(task: pushplan.Task) -> None:
     for parts, candidates in [(0, 1000), (99, 1000), (3, 0)]:
         with pytest.raises(ValueError, match="candidates"):
             pushplan.design(task, parts=parts, candidates=candidates)

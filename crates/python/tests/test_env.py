@@ -127,7 +127,9 @@ def test_with_one_of_two_goals_met_nothing_is_reached() -> None:
     assert info["score"] > 1.0 and seen.shape == env.observation_space.shape
     assert np.linalg.norm(seen[-2:]) > task.tolerance
     # A push beside the object, which touches nothing.
-    _, reward, reached, _, _ = env.step(env.action(env.tools[0].name, math.pi, length=0.5 * task.push_length))
+    _, reward, reached, _, _ = env.step(
+        env.action(env.tools[0].name, math.pi, length=0.5 * task.push_length)
+    )
     assert not reached and reward < 1.0
 
 
@@ -147,7 +149,9 @@ def test_a_push_is_steered_piece_by_piece(task: pushplan.Task) -> None:
         if reached:
             break
     assert reached and (made + 1) * env.stride == pytest.approx(push.length, abs=0.04)
-    assert seen[-2:] == pytest.approx(np.array(push.start) + (made + 1) * env.stride * way, abs=1e-5)
+    assert seen[-2:] == pytest.approx(
+        np.array(push.start) + (made + 1) * env.stride * way, abs=1e-5
+    )
     # The whole push gives the same result, except that objects do not rest in between.
     whole = pushplan.predict(best, "planar").poses[-1]
     assert np.linalg.norm(env.poses[0, :2] - whole[0, :2]) < 0.03

@@ -43,9 +43,9 @@ def test_faults_are_the_words_of_the_command(tmp_path: Path, command: Any) -> No
     path.write_text(TEXT)
     with pytest.raises(pushplan.FileError) as raised:
         pushplan.Task.load(path)
-    said = command("check", path)
-    assert said.returncode == 3
-    assert str(raised.value) in said.stderr + said.stdout
+    checked = command("check", path)
+    assert checked.returncode == 3
+    assert str(raised.value) in checked.stderr + checked.stdout
 
 
 def test_faults_of_a_mapping_name_its_keys(task: pushplan.Task) -> None:
@@ -119,7 +119,12 @@ def test_a_tool_of_ones_own_is_chosen_from() -> None:
             "friction": 0.4,
             "parts": [
                 {"name": "handle", "size": [0.42, 0.04, 0.05], "position": [0.26, 0.0]},
-                {"name": "bar", "size": [0.16, 0.04, 0.05], "position": [0.43, 0.08], "yaw_deg": 90},
+                {
+                    "name": "bar",
+                    "size": [0.16, 0.04, 0.05],
+                    "position": [0.43, 0.08],
+                    "yaw_deg": 90,
+                },
             ],
         }
     )

@@ -31,14 +31,24 @@ def test_what_mujoco_reads_is_what_is_imported(root: Path) -> None:
     with pytest.warns(UserWarning, match="`damping` of the joint"):
         task = pushplan.import_task(root / KITCHEN)
     scene: Any = task.to_dict()["scene"]
-    bodies = {"can": "can", "lying-box": "lying box", "door": "door", "leaf": "leaf", "wedge": "wedge"}
+    bodies = {
+        "can": "can",
+        "lying-box": "lying box",
+        "door": "door",
+        "leaf": "leaf",
+        "wedge": "wedge",
+    }
     assert [thing["name"] for thing in scene["objects"]] == list(bodies)
     for thing in scene["objects"]:
         body = model.body(bodies[thing["name"]])
         # The position of an object is its centre of mass, as in MuJoCo.
         assert data.xipos[body.id][:2] == pytest.approx(thing["position"], abs=1e-9)
         assert body.mass[0] == pytest.approx(thing["mass"], rel=1e-9)
-        [geom] = [g for g in range(model.ngeom) if model.geom_bodyid[g] == body.id and model.geom_contype[g]]
+        [geom] = [
+            g
+            for g in range(model.ngeom)
+            if model.geom_bodyid[g] == body.id and model.geom_contype[g]
+        ]
         turn = data.geom_xmat[geom].reshape(3, 3)
         if "cuboid" in thing["shape"]:
             ahead = turn @ np.diag(2 * model.geom_size[geom])
@@ -50,14 +60,20 @@ def test_what_mujoco_reads_is_what_is_imported(root: Path) -> None:
             assert np.abs(along).max() == pytest.approx(1.0, abs=1e-9)
         elif "cylinder" in thing["shape"]:
             radius, half = model.geom_size[geom][:2]
-            assert thing["shape"]["cylinder"] == pytest.approx({"radius": radius, "height": 2 * half})
+            assert thing["shape"]["cylinder"] == pytest.approx(
+                {"radius": radius, "height": 2 * half}
+            )
     [wall] = scene["obstacles"]
     assert data.body("wall").xpos[:2] == pytest.approx(wall["position"])
-    assert wall["yaw_deg"] == pytest.approx(30.0) and wall["size"] == pytest.approx([0.02, 0.2, 0.06])
+    assert wall["yaw_deg"] == pytest.approx(30.0) and wall["size"] == pytest.approx(
+        [0.02, 0.2, 0.06]
+    )
     assert scene["table"]["size"] == pytest.approx([1.0, 0.8])
 
 
-def test_an_exported_scene_opens_in_mujoco_and_comes_back(task: pushplan.Task, tmp_path: Path) -> None:
+def test_an_exported_scene_opens_in_mujoco_and_comes_back(
+    task: pushplan.Task, tmp_path: Path
+) -> None:
     pushplan.export_mjcf(plan(task), tmp_path / "scene.xml")
     assert (tmp_path / "scene.xml").read_text() == plan(task).to_mjcf()
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "scene.xml"))
@@ -99,7 +115,9 @@ def test_a_loaded_model_becomes_what_its_file_does(root: Path, task: pushplan.Ta
     model = mujoco.MjModel.from_xml_string(plan(task).to_mjcf())
     with pytest.warns(UserWarning, match="the tool is not imported here"):
         again = pushplan.scene_from(model)
-    assert again.objects == task.objects and again.goal_position == pytest.approx(task.goal_position)
+    assert again.objects == task.objects and again.goal_position == pytest.approx(
+        task.goal_position
+    )
     assert again.start == pytest.approx(task.start, abs=1e-9)
 
 
@@ -131,14 +149,17 @@ def test_things_are_where_the_data_has_them() -> None:
         off = math.remainder(task.start[k, 2] - heading, math.pi)
         assert name == "can" or off == pytest.approx(0, abs=1e-9)
     scene: Any = task.to_dict()["scene"]
-    limits = {joint["kind"]: joint.get("limits") or joint.get("limits_deg") for joint in scene["joints"]}
+    limits = {
+        joint["kind"]: joint.get("limits") or joint.get("limits_deg") for joint in scene["joints"]
+    }
     # Relative to the current positions.
     assert sorted(map(abs, limits["prismatic"])) == pytest.approx([0.15, 0.15])
     assert sorted(map(abs, limits["revolute"])) == pytest.approx([30, 90])
     assert pushplan.scene_from(model).start[0] == pytest.approx([0.5, 0.1, 0])
     # Errors of the importer are also raised here.
     ball = mujoco.MjModel.from_xml_string(
-        "<mujoco><worldbody><body name='ball'><freejoint/><geom size='.05'/></body></worldbody></mujoco>"
+        "<mujoco><worldbody><body name='ball'><freejoint/><geom size='.05'/></body></worldbody>"
+        "</mujoco>"
     )
     with pytest.raises(pushplan.FileError, match="`ball` is a sphere"):
         pushplan.scene_from(ball)
@@ -200,17 +221,29 @@ def test_a_recording_is_read_by_mcap(task: pushplan.Task, tmp_path: Path) -> Non
     with path.open("rb") as file:
         reader = make_reader(file)
         [attached] = reader.iter_attachments()
-        [said] = reader.iter_metadata()
+        [stated] = reader.iter_metadata()
     assert attached.media_type == "application/json"
     assert pushplan.Plan.parse(attached.data.decode()).to_dict() == plan(task).to_dict()
-    assert float(said.metadata["error_m"]) == predicted.error and said.metadata["model"] == "planar"
+    assert (
+        float(stated.metadata["error_m"]) == predicted.error
+        and stated.metadata["model"] == "planar"
+    )
 
 
 def test_the_command_writes_the_same_recording(
     task: pushplan.Task, tmp_path: Path, command: Callable[..., Any]
 ) -> None:
     plan(task).save(tmp_path / "p.plan.json")
-    made = command("export", tmp_path / "p.plan.json", "--format", "mcap", "--model", "planar", "--out", tmp_path)
+    made = command(
+        "export",
+        tmp_path / "p.plan.json",
+        "--format",
+        "mcap",
+        "--model",
+        "planar",
+        "--out",
+        tmp_path,
+    )
     assert made.returncode == 0, made.stderr
     pushplan.export_mcap(plan(task), tmp_path / "own.mcap", model="planar")
     assert (tmp_path / "p.mcap").read_bytes() == (tmp_path / "own.mcap").read_bytes()
@@ -218,14 +251,16 @@ def test_the_command_writes_the_same_recording(
 
 def test_a_trajectory_of_another_task_is_refused(task: pushplan.Task, tmp_path: Path) -> None:
     other: Any = task.to_dict()
-    other["scene"]["objects"].append({**other["scene"]["objects"][0], "name": "more", "position": [0.3, 0.4]})
+    other["scene"]["objects"].append(
+        {**other["scene"]["objects"][0], "name": "more", "position": [0.3, 0.4]}
+    )
     predicted = pushplan.predict(plan(pushplan.Task.from_dict(other)))
     with pytest.raises(ValueError, match="of another task"):
         pushplan.export_mcap(plan(task), tmp_path / "x.mcap", trajectory=predicted)
     assert not (tmp_path / "x.mcap").exists()
 
 
-def test_data_are_read_by_numpy_and_are_what_the_engines_say(
+def test_data_are_read_by_numpy_and_equal_the_results_of_the_engines(
     tmp_path: Path, learn: Callable[..., Any]
 ) -> None:
     made = learn("generate", tmp_path, "--format", "npz", "--episodes", 40, "--seed", 3)
@@ -255,16 +290,26 @@ def test_data_are_read_by_numpy_and_are_what_the_engines_say(
         })
         along = stroke[:, 3:5] - stroke[:, 0:2]
         length = np.hypot(*along.T)
-        pushes = np.column_stack([
-            stroke[:, :2], np.arctan2(along[:, 1], along[:, 0]), length, length / data["stroke_time"][strokes],
-        ])
+        pushes = np.column_stack(
+            [
+                stroke[:, :2],
+                np.arctan2(along[:, 1], along[:, 0]),
+                length,
+                length / data["stroke_time"][strokes],
+            ]
+        )
         # If the height of the push is unknown, the 3-D engine provides the ground truth.
         model = "planar" if "push_height" in scene else "3d"
         first, behind = data["frame_start"][episode : episode + 2]
         poses = data["pose"][first:behind, :count]
         # Headings in files are within a full turn, headings in the data count turns.
         rolled = pushplan.rollout(
-            task, pushplan.Tool.from_dict(tool), pushes[None], grip_yaw=stroke[0, 2], start=poses[0], model=model
+            task,
+            pushplan.Tool.from_dict(tool),
+            pushes[None],
+            grip_yaw=stroke[0, 2],
+            start=poses[0],
+            model=model,
         )
         assert rolled.frames[0] == behind - first
         off.append(np.abs(rolled.poses[0] - poses).max())
@@ -273,11 +318,15 @@ def test_data_are_read_by_numpy_and_are_what_the_engines_say(
     assert len(off) > 10 and np.median(off) < 1e-9 and max(off) < 0.02
     statistics = json.loads((tmp_path / "statistics.json").read_text())
     for key in ("mass", "friction", "size", "pose", "velocity", "change"):
-        columns = data[key].reshape(-1, 3) if data[key].shape[-1] == 3 and data[key].ndim > 2 else data[key].reshape(-1, 1)
-        said = statistics[key]
-        assert said["mean"] == pytest.approx(np.nanmean(columns, axis=0), abs=1e-12), key
-        assert said["std"] == pytest.approx(np.nanstd(columns, axis=0), rel=1e-9), key
-        assert said["count"] == np.sum(~np.isnan(columns), axis=0).tolist()
+        columns = (
+            data[key].reshape(-1, 3)
+            if data[key].shape[-1] == 3 and data[key].ndim > 2
+            else data[key].reshape(-1, 1)
+        )
+        stated = statistics[key]
+        assert stated["mean"] == pytest.approx(np.nanmean(columns, axis=0), abs=1e-12), key
+        assert stated["std"] == pytest.approx(np.nanstd(columns, axis=0), rel=1e-9), key
+        assert stated["count"] == np.sum(~np.isnan(columns), axis=0).tolist()
     change = np.diff(data["pose"], axis=0)
     inside = np.setdiff1d(np.arange(1, frames), data["frame_start"])
     assert data["change"][inside] == pytest.approx(change[inside - 1], nan_ok=True)

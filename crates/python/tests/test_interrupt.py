@@ -53,9 +53,9 @@ def test_ctrl_c_ends_the_command_as_it_does_the_binary(tmp_path: Path) -> None:
         while not (tmp_path / "records.jsonl").exists() and time.monotonic() < until:
             time.sleep(0.1)
         job.send_signal(signal.SIGINT)
-        said = job.communicate(timeout=60)[1].decode()
-    assert job.returncode == 130, said
-    assert "rerun the same command to resume" in said and "Traceback" not in said
+        printed = job.communicate(timeout=60)[1].decode()
+    assert job.returncode == 130, printed
+    assert "rerun the same command to resume" in printed and "Traceback" not in printed
 
 
 def test_other_threads_run_meanwhile(task: pushplan.Task) -> None:

@@ -64,7 +64,9 @@ def test_pyarrow_reads_what_runs_saw_and_did(tmp_path: Path) -> None:
     folder = lerobot.save(tmp_path / "runs", runs, fps=20)
     data = parquet.read_table(folder / "data/chunk-000/file-000.parquet")
     rows = parquet.read_table(folder / "meta/episodes").to_pylist()
-    objects = np.array(data["observation.environment_state"].to_pylist()).reshape(data.num_rows, -1, 3)
+    objects = np.array(data["observation.environment_state"].to_pylist()).reshape(
+        data.num_rows, -1, 3
+    )
     tool = np.array(data["observation.state"].to_pylist())
     assert np.isfinite(objects).all() and len(rows) == 2
     for run, row in zip(runs, rows):
@@ -73,13 +75,19 @@ def test_pyarrow_reads_what_runs_saw_and_did(tmp_path: Path) -> None:
         assert data["next.success"].to_pylist()[frames][-1] == run.reached
         trace = run.to_dict()
         last = trace["steps"][-1]["looks"][-1]["seen"]
-        assert objects[frames][-1, :, :2] == pytest.approx(np.array([sight["position"] for sight in last]), abs=1e-6)
+        assert objects[frames][-1, :, :2] == pytest.approx(
+            np.array([sight["position"] for sight in last]), abs=1e-6
+        )
         first = trace["first"]["seen"]
-        assert objects[frames][0, :, :2] == pytest.approx(np.array([sight["position"] for sight in first]), abs=1e-6)
+        assert objects[frames][0, :, :2] == pytest.approx(
+            np.array([sight["position"] for sight in first]), abs=1e-6
+        )
         # The tool follows all its paths at their speed, and is lifted between them.
         ways = np.linalg.norm(np.diff(tool[frames][:, :2], axis=0), axis=1)
         lifted = ways > task.push_speed * 1.5 / 20
-        assert ways[~lifted].sum() == pytest.approx(sum(push.length or 0.0 for push in run.pushes), rel=0.05)
+        assert ways[~lifted].sum() == pytest.approx(
+            sum(push.length or 0.0 for push in run.pushes), rel=0.05
+        )
         assert np.count_nonzero(lifted) <= len(trace["steps"]) - 1
     # Runs and trajectories of the same objects can be combined.
     push = pushplan.Push((0.3, 0.1), 0.0, 0.1, 0.1)

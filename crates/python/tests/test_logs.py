@@ -84,7 +84,11 @@ def set_at(column: int, value: Callable[[int, float], float]) -> list[Row]:
     ("table", "stated", "message"),
     [
         (rows(), {"length": "m"}, "check `length`, here `m`"),
-        ([[a, b / 1e3, c, d / 1e3, e, f] for a, b, c, d, e, f in rows()], {}, "check `length`, here `mm`"),
+        (
+            [[a, b / 1e3, c, d / 1e3, e, f] for a, b, c, d, e, f in rows()],
+            {},
+            "check `length`, here `mm`",
+        ),
         (rows(), {"angle": "deg"}, "wraps at pi; set `angle` to `rad`"),
         (set_at(5, lambda k, yaw: math.degrees(yaw)), {}, "set `angle` to `deg`"),
         (rows(), {"clock": "ns"}, "check the unit of time, `clock`"),
@@ -92,17 +96,21 @@ def set_at(column: int, value: Callable[[int, float], float]) -> list[Row]:
         (set_at(0, lambda k, t: 0.0 if k == 50 else t), {}, ":52: the time does not increase"),
         (set_at(1, lambda k, x: math.nan if k == 3 else x), {}, ":5: `tip_x` is 'nan'"),
         (rows(), {"time": "time"}, "no column time; the file has t, tip_x"),
-        (rows(), {"poses": {"pusher": ("tip_x", "tip_y")}}, "must have the keys pusher, box, found pusher"),
+        (
+            rows(),
+            {"poses": {"pusher": ("tip_x", "tip_y")}},
+            "must have the keys pusher, box, found pusher",
+        ),
     ],
 )
-def test_what_a_log_cannot_be_is_said(
+def test_invalid_logs_are_reported(
     tmp_path: Path, table: list[Row], stated: dict[str, Any], message: str
 ) -> None:
     with pytest.raises(ValueError, match=message):
         logs.read_csv(written(tmp_path / "log.csv", table), **{**STATED, **stated})
 
 
-def test_stale_poses_and_small_angles_are_said(tmp_path: Path) -> None:
+def test_stale_poses_and_small_angles_are_reported(tmp_path: Path) -> None:
     def frozen(k: int, row: Row) -> Row:
         return [*row[:3], *rows()[60][3:]] if 60 <= k < 80 else row
 
@@ -155,16 +163,27 @@ def bag(path: Path, table: list[Row], late: float = 0.0) -> Path:
             writer.write_message("/tip/pose", poses, message, log_time=nanos, publish_time=nanos)
             turn = {"x": 0.0, "y": 0.0, "z": math.sin(yaw / 2), "w": math.cos(yaw / 2)}
             transforms = [
-                {"header": head(time + late), "child_frame_id": child, "transform": {"translation": at, "rotation": turn}}
-                for child, at in [("camera", {"x": 9.0, "y": 9.0, "z": 9.0}), ("box", {"x": x / 1e3, "y": y / 1e3, "z": 0.01})]
+                {
+                    "header": head(time + late),
+                    "child_frame_id": child,
+                    "transform": {"translation": at, "rotation": turn},
+                }
+                for child, at in [
+                    ("camera", {"x": 9.0, "y": 9.0, "z": 9.0}),
+                    ("box", {"x": x / 1e3, "y": y / 1e3, "z": 0.01}),
+                ]
             ]
-            writer.write_message("/tf", frames, {"transforms": transforms}, log_time=nanos, publish_time=nanos)
+            writer.write_message(
+                "/tf", frames, {"transforms": transforms}, log_time=nanos, publish_time=nanos
+            )
         writer.finish()
     return path
 
 
 ROS: dict[str, Any] = {
-    "scene": STATED["scene"], "pusher": STATED["pusher"], "topics": {"box": "/tf#box", "pusher": "/tip/pose"},
+    "scene": STATED["scene"],
+    "pusher": STATED["pusher"],
+    "topics": {"box": "/tf#box", "pusher": "/tip/pose"},
 }
 
 
@@ -178,11 +197,15 @@ def test_a_bag_of_ros_is_the_same_recording(tmp_path: Path) -> None:
     late = logs.read_mcap(bag(tmp_path / "late.mcap", rows(), late=0.01), **ROS)
     assert len(late) == len(wanted) - 1
     assert late.poses[:, 0, 0] == pytest.approx(np.maximum(0.1, late.poses[:, 0, 0]))
-    assert late.poses[-1, 0, 0] == pytest.approx((wanted.poses[-2, 0, 0] + wanted.poses[-1, 0, 0]) / 2, abs=1e-6)
+    assert late.poses[-1, 0, 0] == pytest.approx(
+        (wanted.poses[-2, 0, 0] + wanted.poses[-1, 0, 0]) / 2, abs=1e-6
+    )
     part = logs.read_mcap(tmp_path / "log.mcap", **ROS, end=1.0)
     assert len(part) == 51
     with pytest.raises(ValueError, match=r"/tf \(tf2_msgs/msg/TFMessage\)"):
-        logs.read_mcap(tmp_path / "log.mcap", **{**ROS, "topics": {"box": "/tf#bottle", "pusher": "/tip/pose"}})
+        logs.read_mcap(
+            tmp_path / "log.mcap", **{**ROS, "topics": {"box": "/tf#bottle", "pusher": "/tip/pose"}}
+        )
     with pytest.raises(ValueError, match="must have the keys pusher, box, found box"):
         logs.read_mcap(tmp_path / "log.mcap", **{**ROS, "topics": {"box": "/tf#box"}})
     with pytest.raises(ValueError, match="no plan of pushplan"):

@@ -16,7 +16,9 @@ import pushplan
 
 def shown(element: str) -> str:
     """Returns the page in a frame."""
-    found = re.fullmatch(r'<iframe srcdoc="([^"]*)" sandbox="allow-scripts" [^>]*></iframe>', element)
+    found = re.fullmatch(
+        r'<iframe srcdoc="([^"]*)" sandbox="allow-scripts" [^>]*></iframe>', element
+    )
     assert found, element[:200]
     return html.unescape(found.group(1))
 
@@ -24,11 +26,11 @@ def shown(element: str) -> str:
 def test_solutions_plans_and_verdicts_show_their_pages(task: pushplan.Task) -> None:
     solution = pushplan.solve(task, effort="draft")
     assert solution.best is not None and solution.best.verdict is not None
-    for what in (solution, solution.best, solution.best.verdict):
-        page = what.page()
+    for answer in (solution, solution.best, solution.best.verdict):
+        page = answer.page()
         assert page.startswith("<!DOCTYPE html>")
         assert "default-src 'none'" in page and task.name in page
-        assert shown(what._repr_html_()) == page
+        assert shown(answer._repr_html_()) == page
         assert len(page) < 200_000
 
 
@@ -50,7 +52,9 @@ def test_the_script_of_a_page_makes_its_plan_again(
     plans = json.loads(data.group(1))["plans"]
     for plan, made in list(zip(solution.plans, plans))[:2]:
         # The last output of the script is the verdict of this plan.
-        again = made["python"].replace("print(pushplan.verify(plan))", f"plan.save({str(tmp_path / 'a.json')!r})")
+        again = made["python"].replace(
+            "print(pushplan.verify(plan))", f"plan.save({str(tmp_path / 'a.json')!r})"
+        )
         assert again != made["python"]
         ran = subprocess.run(
             [sys.executable, "-c", again], cwd=root, text=True, capture_output=True, check=False
@@ -61,7 +65,11 @@ def test_the_script_of_a_page_makes_its_plan_again(
         saved = pushplan.Plan.load(tmp_path / "a.json")
         assert saved.to_dict()["plan"] == plan.to_dict()["plan"]
     whole = subprocess.run(
-        [sys.executable, "-c", plans[0]["python"]], cwd=root, text=True, capture_output=True, check=False
+        [sys.executable, "-c", plans[0]["python"]],
+        cwd=root,
+        text=True,
+        capture_output=True,
+        check=False,
     )
     assert "verdict: passed" in whole.stdout, whole.stderr
 
@@ -85,4 +93,7 @@ def test_plans_go_to_mujoco(task: pushplan.Task) -> None:
 def test_words_are_those_of_the_command(task: pushplan.Task) -> None:
     solution = pushplan.solve(task, effort="draft")
     assert "verdict: passed" in str(solution)
-    assert repr(solution) == "<Solution pull-back-behind-wall: solved with l-hook, grip yaw 0°, 1 push>"
+    assert (
+        repr(solution)
+        == "<Solution pull-back-behind-wall: solved with l-hook, grip yaw 0°, 1 push>"
+    )

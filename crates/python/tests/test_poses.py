@@ -49,7 +49,10 @@ def scene(folder: Path, eye: Any, at: npt.NDArray[np.float64]) -> Any:
         black = 400
         white = round(black * (MARGIN - 1) / 2)
         image = cv2.copyMakeBorder(
-            cv2.aruco.generateImageMarker(dictionary, k, black), *[white] * 4, cv2.BORDER_CONSTANT, value=255
+            cv2.aruco.generateImageMarker(dictionary, k, black),
+            *[white] * 4,
+            cv2.BORDER_CONSTANT,
+            value=255,
         )
         cv2.imwrite(str(folder / f"tag{k}.png"), image)
         half = edge / 2 * (black + 2 * white) / black
@@ -58,11 +61,13 @@ def scene(folder: Path, eye: Any, at: npt.NDArray[np.float64]) -> Any:
             f'<material name="m{k}" texture="t{k}" specular="0" reflectance="0"/>'
         )
         geoms.append(
-            f'<geom type="plane" size="{half} {half} 1" pos="{place[0]} {place[1]} {place[2] + 1e-4}" '
+            f'<geom type="plane" size="{half} {half} 1" '
+            f'pos="{place[0]} {place[1]} {place[2] + 1e-4}" '
             f'euler="0 0 {math.degrees(yaw)}" material="m{k}"/>'
         )
     axes = looking(eye)
-    text = f"""<mujoco><visual><global offwidth="{WIDTH}" offheight="{HEIGHT}"/><quality offsamples="8"/>
+    text = f"""<mujoco><visual><global offwidth="{WIDTH}" offheight="{HEIGHT}"/>
+      <quality offsamples="8"/>
       <headlight ambient="0.6 0.6 0.6" diffuse="0.4 0.4 0.4" specular="0 0 0"/></visual>
       <asset>{"".join(kinds)}</asset><worldbody>
       <geom type="plane" size="2 2 0.1" rgba="0.6 0.6 0.6 1"/>
@@ -118,7 +123,7 @@ def drawn(rng: np.random.Generator) -> tuple[Any, Any]:
     return eye, at
 
 
-def test_rendered_tags_are_found_within_what_is_said(tmp_path: Path) -> None:
+def test_rendered_tags_are_found_within_the_stated_error(tmp_path: Path) -> None:
     task = pushplan.Task.from_dict(TASK)
     # Not in the set from which poses.PIXELS was chosen.
     rng = np.random.default_rng(1000)

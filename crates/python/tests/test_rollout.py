@@ -138,7 +138,7 @@ def test_wild_numbers_do_no_harm(task: pushplan.Task) -> None:
     assert rolled.errors.shape == (200,)
 
 
-def test_a_broken_rule_is_told_and_a_plan_is_made_all_the_same(task: pushplan.Task) -> None:
+def test_a_broken_rule_is_reported_and_a_plan_is_still_returned(task: pushplan.Task) -> None:
     far = pushplan.Push([2.0, 0.0], 0.0, 0.1)
     plan = pushplan.Plan.of(task, "stick", [far])
     assert plan.violations and plan.violations[0].startswith("push 1: ")

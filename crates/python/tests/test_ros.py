@@ -44,17 +44,25 @@ class Robot:
         self.node.create_subscription(parts["Path"], "/pushplan/path", self.push, 10)
         self.states: list[dict[str, Any]] = []
         self.node.create_subscription(
-            parts["String"], "/pushplan/feedback", lambda said: self.states.append(json.loads(said.data)), 10
+            parts["String"],
+            "/pushplan/feedback",
+            lambda message: self.states.append(json.loads(message.data)),
+            10,
         )
         self.stops = 0
-        self.node.create_subscription(parts["JointTrajectory"], "/pushplan/trajectory", self.stop, 10)
-        self.node.create_timer(0.05, self.say)
+        self.node.create_subscription(
+            parts["JointTrajectory"], "/pushplan/trajectory", self.stop, 10
+        )
+        self.node.create_timer(0.05, self.publish_poses)
 
-    def say(self) -> None:
+    def publish_poses(self) -> None:
         message = self.parts["PoseStamped"]()
         x, y, heading = map(float, self.poses[0])
         message.pose.position.x, message.pose.position.y = x, y
-        message.pose.orientation.z, message.pose.orientation.w = math.sin(heading / 2), math.cos(heading / 2)
+        message.pose.orientation.z, message.pose.orientation.w = (
+            math.sin(heading / 2),
+            math.cos(heading / 2),
+        )
         self.out.publish(message)
 
     def stop(self, message: Any) -> None:
@@ -65,9 +73,13 @@ class Robot:
             return
         pushes = []
         for a, b in zip(path.poses[::2], path.poses[1::2]):
-            way = np.array([b.pose.position.x - a.pose.position.x, b.pose.position.y - a.pose.position.y])
+            way = np.array(
+                [b.pose.position.x - a.pose.position.x, b.pose.position.y - a.pose.position.y]
+            )
             start = (a.pose.position.x, a.pose.position.y)
-            pushes.append(pushplan.Push(start, math.atan2(way[1], way[0]), float(np.hypot(*way)), 0.1))
+            pushes.append(
+                pushplan.Push(start, math.atan2(way[1], way[0]), float(np.hypot(*way)), 0.1)
+            )
         yaw = 2 * math.atan2(path.poses[0].pose.orientation.z, path.poses[0].pose.orientation.w)
         plan = pushplan.Plan.of(self.task.at(self.poses), "paddle", pushes, grip_yaw=yaw)
         self.poses = np.array(pushplan.predict(plan, "planar").poses[-1])
@@ -82,8 +94,8 @@ class Robot:
         return {"success": answer.success, **json.loads(answer.message)}
 
     def state(self, *wanted: str) -> dict[str, Any]:
-        wait(lambda: any(said["state"] in wanted for said in self.states), 60)
-        return next(said for said in self.states if said["state"] in wanted)
+        wait(lambda: any(report["state"] in wanted for report in self.states), 60)
+        return next(report for report in self.states if report["state"] in wanted)
 
 
 def wait(until: Callable[[], bool], seconds: float) -> None:
@@ -131,7 +143,7 @@ def test_a_run_looks_plans_sends_and_ends_at_the_goal(context: None) -> None:
     assert robot.call("run")["success"]
     ended = robot.state("ended", "failed")
     assert ended["state"] == "ended" and ended["reached"], robot.states
-    assert {"looked", "planned", "sent"} <= {said["state"] for said in robot.states}
+    assert {"looked", "planned", "sent"} <= {report["state"] for report in robot.states}
     assert np.linalg.norm(robot.poses[0, :2] - [0.55, 0.1]) <= 0.02
     node.stop()
     turning.stop()
@@ -177,7 +189,7 @@ def test_a_task_with_one_of_two_goals_met_is_not_reached() -> None:
     still: Any = ros.Node.__new__(ros.Node)
     still.tries = 0
     still._look = lambda given, since: given
-    still._say = lambda state, **more: {"state": state, **more}
+    still._publish = lambda state, **more: {"state": state, **more}
     assert still._run_through(task)["reached"] is False
     assert still._run_through(task.at(np.array([[0.45, 0.1, 0.0], [0.55, -0.1, 0.0]])))["reached"]
 
@@ -202,14 +214,15 @@ class Client:
         from rclpy.action import ActionClient  # type: ignore[import-not-found,unused-ignore]
 
         self.kind = kind
-        self.said: list[str] = []
+        self.feedback: list[str] = []
         self.client = ActionClient(node, kind, "/pushplan/push")
 
     def asks(self, task: str = "") -> Any:
         assert self.client.wait_for_server(timeout_sec=20)
-        self.said = []
+        self.feedback = []
         asked = self.client.send_goal_async(
-            self.kind.Goal(task=task), feedback_callback=lambda message: self.said.append(message.feedback.state)
+            self.kind.Goal(task=task),
+            feedback_callback=lambda message: self.feedback.append(message.feedback.state),
         )
         wait(asked.done, 60)
         return asked.result()
@@ -222,7 +235,10 @@ class Client:
         wait(result.done, 60)
         names = {GoalStatus.STATUS_SUCCEEDED: "succeeded", GoalStatus.STATUS_CANCELED: "cancelled"}
         found = result.result()
-        return names.get(found.status, "aborted"), {**json.loads(found.result.report), "reached": found.result.reached}
+        return names.get(found.status, "aborted"), {
+            **json.loads(found.result.report),
+            "reached": found.result.reached,
+        }
 
 
 def test_a_goal_has_feedback_a_result_and_is_cancelled(types: Any, context: None) -> None:
@@ -232,7 +248,11 @@ def test_a_goal_has_feedback_a_result_and_is_cancelled(types: Any, context: None
     assert goal.accepted
     status, report = client.ends(goal)
     assert status == "succeeded" and report["reached"] and report["state"] == "ended", report
-    assert client.said[0] == "looked" and client.said[-1] == "ended" and {"planned", "sent"} <= set(client.said)
+    assert (
+        client.feedback[0] == "looked"
+        and client.feedback[-1] == "ended"
+        and {"planned", "sent"} <= set(client.feedback)
+    )
     assert np.linalg.norm(robot.poses[0, :2] - [0.55, 0.1]) <= 0.02
     # Another goal for the same can, and one for an object that the node does not observe.
     further: Any = json.loads(json.dumps(TASK))
@@ -247,7 +267,7 @@ def test_a_goal_has_feedback_a_result_and_is_cancelled(types: Any, context: None
     robot.stuck, robot.poses = True, np.array(robot.task.start)
     time.sleep(0.3)
     goal = client.asks()
-    wait(lambda: "sent" in client.said, 60)
+    wait(lambda: "sent" in client.feedback, 60)
     assert not client.asks().accepted and not robot.call("run")["success"]
     stops = robot.stops
     goal.cancel_goal_async()

@@ -46,7 +46,7 @@ def test_a_task_is_carried_out_in_a_world_of_python(task: pushplan.Task) -> None
     assert "push" in str(ran) and ran.to_dict()["kind"] == "run"
 
 
-def test_a_number_draws_a_world_and_says_the_same_each_time(root: Path, tmp_path: Path) -> None:
+def test_a_number_draws_a_reproducible_world(root: Path, tmp_path: Path) -> None:
     task = pushplan.Task.load(root / "tasks/hidden-hinge.yaml")
     once, again = (pushplan.run(task, 1, threads=threads) for threads in (1, 2))
     assert once.to_dict() == again.to_dict()
@@ -54,7 +54,7 @@ def test_a_number_draws_a_world_and_says_the_same_each_time(root: Path, tmp_path
     assert (tmp_path / "trace.run.json").stat().st_size > 1000
 
 
-def test_a_drawn_world_says_where_the_arm_gave_up(root: Path) -> None:
+def test_a_drawn_world_reports_where_the_arm_stopped(root: Path) -> None:
     text = (root / "tasks" / "pull-back.yaml").read_text()
     weak = pushplan.Task.parse(text.replace("robot: {", "robot: {max_force: 0.1, "), "weak")
     ran = pushplan.run(weak, 1, max_pushes=2)

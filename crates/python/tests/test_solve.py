@@ -86,7 +86,7 @@ def test_a_time_limit_returns_the_best_so_far(root: Path) -> None:
     assert solution.timed_out and not solution.solved
 
 
-def test_a_model_can_be_told_to_refuse(task: pushplan.Task) -> None:
+def test_a_model_can_refuse_on_request(task: pushplan.Task) -> None:
     keys = task.to_dict()
     # Far faster than any push on which the model was measured.
     fast = pushplan.Task.from_dict({**keys, "pushes": {"speed": 1.0}})

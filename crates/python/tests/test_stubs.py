@@ -26,7 +26,7 @@ def test_package_tests_and_examples_are_typed(root: Path) -> None:
     checked("mypy", "--explicit-package-bases", *sources[2:], cwd=root)
 
 
-def test_everything_public_says_what_it_is() -> None:
+def test_everything_public_has_a_docstring() -> None:
     undocumented = [
         name
         for name in pushplan.__all__

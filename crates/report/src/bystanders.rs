@@ -76,6 +76,10 @@ pub(super) fn line(moved: &[Bystander<'_>]) -> Option<String> {
 
 /// Converts all bystanders to JSON, in metres and radians.
 pub(super) fn json(moved: &[Bystander<'_>]) -> Json {
-    let of = |one: &Bystander| json!({"object": one.name, "moved": one.moved, "turned": one.turned, "fell": one.fell});
+    let of = |one: &Bystander| {
+        json!({
+            "object": one.name, "moved": one.moved, "turned": one.turned, "fell": one.fell,
+        })
+    };
     moved.iter().map(of).collect()
 }

@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stays_as_it_is_and_what_is_not_finite_leave_a_valid_sheet() {
+    fn constant_and_non_finite_values_leave_a_valid_sheet() {
         assert!(!css(&[(0.0, 1.0), (2.0, 1.05), (4.0, 1.0)]).contains("keyframes"));
         assert!(!css(&[]).contains("keyframes"));
         assert!(!css(&[(0.0, 0.0), (2.0, f64::NAN), (4.0, 1.0)]).contains("NaN"));

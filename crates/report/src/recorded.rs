@@ -70,7 +70,8 @@ pub fn trials_line(errors: &TrialErrors, of: &str) -> String {
         None => "none".to_owned(),
     };
     format!(
-        "{}: {} trajectories{of}, {:.0} frames each; objects move: {} on average, more than 1 cm: {}",
+        "{}: {} trajectories{of}, {:.0} frames each; objects move: {} on average, \
+         more than 1 cm: {}",
         errors.title,
         errors.trajectories,
         errors.frames,

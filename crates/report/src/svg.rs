@@ -159,7 +159,8 @@ impl Svg {
     pub fn open_clipped(&mut self, id: &str, corner: Vector, size: Vector) {
         let (x, y, w, h) = (px(corner.x), px(corner.y), px(size.x), px(size.y));
         self.define(&format!(
-            "<clipPath id=\"{id}\"><rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/></clipPath>"
+            "<clipPath id=\"{id}\"><rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/>\
+             </clipPath>"
         ));
         let _ = writeln!(self.body, "<g clip-path=\"url(#{id})\">");
     }
@@ -317,7 +318,8 @@ impl Svg {
         }
         if font.halo {
             self.body.push_str(
-                " stroke=\"#fff\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
+                " stroke=\"#fff\" stroke-width=\"3\" stroke-linejoin=\"round\" \
+                 paint-order=\"stroke\"",
             );
         }
         if degrees != 0.0 {

@@ -192,7 +192,7 @@ mod tests {
     use pushplan::{outcome::Perturbation, scene::State};
 
     #[test]
-    fn a_warning_of_both_engines_is_said_once() {
+    fn a_warning_of_both_engines_is_reported_once() {
         let landed = || Warning::SetDownOn { object: "can".to_owned(), stroke: 1 };
         let toppled = Warning::Toppled { object: "can".to_owned() };
         let outcome = Outcome { state: State::default(), goals: Vec::new(), reached: false };
@@ -210,8 +210,8 @@ mod tests {
         ];
         let verdict = Verdict::judge(Vec::new(), evidence, 0.75);
         insta::assert_snapshot!(replay_warnings(&verdict).join("\n"), @r"
-        2-D and 3-D: can is below the tool when it is set down for push 2, so the nominal replay fails
-        3-D: can toppled, so its pose on the table is unreliable; push lower or slower
-        ");
+    2-D and 3-D: can is below the tool when it is set down for push 2, so the nominal replay fails
+    3-D: can toppled, so its pose on the table is unreliable; push lower or slower
+    ");
     }
 }

@@ -145,7 +145,12 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
         "table": table,
         "objects": scene.things().map(object).collect::<Vec<_>>(),
         "joints": joints.chain(scene.mounts.iter().map(mount)).collect::<Vec<_>>(),
-        "obstacles": scene.obstacles.iter().filter(is_stated).map(emitted_obstacle).collect::<Vec<_>>(),
+        "obstacles": scene
+            .obstacles
+            .iter()
+            .filter(is_stated)
+            .map(emitted_obstacle)
+            .collect::<Vec<_>>(),
     });
     if !scene.frictions.is_empty() {
         let friction = |pair: &PairFriction| {

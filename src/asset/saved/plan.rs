@@ -200,8 +200,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_left_out_leaves_everything_else_in_its_place() {
-        let text = "{\"kind\": \"plan\",\n\"predicted\": {\"a\\\"}\": [1, 2]},\n \"plan\": {\"verdict\": 3},\n\"verdict\": \"ä,\"}";
+    fn omitted_keys_leave_other_keys_in_place() {
+        let text = "{\"kind\": \"plan\",\n\"predicted\": {\"a\\\"}\": [1, 2]},\n \
+                    \"plan\": {\"verdict\": 3},\n\"verdict\": \"ä,\"}";
         let kept = without_earlier_ends(text);
         let found: serde_json::Value = serde_json::from_str(&kept).expect("it is JSON as before");
         assert_eq!(found, serde_json::json!({"kind": "plan", "plan": {"verdict": 3}}));

@@ -93,7 +93,7 @@ pub(in crate::asset) const PUSH_HEIGHT: Key = Key::optional(
         high: 1.0,
         advice: "a fingertip at half the height of the middle is 0.5",
     }),
-    "Height at which the tool presses on objects, as a share of the mean height of the contacting \
+    "Height at which the tool presses on objects, relative to the mean height of the contacting \
      faces: 0 at the table, 1 in the middle. With a larger height more of the object's weight \
      moves to its front. By default unknown, like the contact of two flat faces.",
 );

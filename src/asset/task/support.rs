@@ -28,8 +28,7 @@ const SUPPORT: Value = Value::Either(&[
                 high: 1.0,
                 advice: "1 is the corners, or the rim; even pressure is like 0.5 to 0.7",
             }),
-            "Radius of the support, as a share of the corners' distance or of the radius; no \
-             default.",
+            "Radius of the support relative to the corners' distance or the radius; no default.",
         ),
         Key::optional(
             "points",

@@ -112,7 +112,7 @@ fn the_set_is_what_the_iteration_approaches() {
 }
 
 #[test]
-fn what_was_found_keeps_every_law() {
+fn solutions_satisfy_every_law() {
     for (seed, jointed) in (0..100).map(|k| (k, k % 2 == 1)) {
         let Some((_, constraints)) = solved(seed, jointed) else { continue };
         for Constraint { force, value, target, give, .. } in constraints {

@@ -104,7 +104,7 @@ fn the_tree_answers_as_all_equations_at_once_do() {
 }
 
 #[test]
-fn what_closes_a_loop_is_left_out() {
+fn joints_that_close_a_loop_are_left_out() {
     let (unknowns, mut ties) = forest(&mut 5, false);
     let mut last = ties[0];
     (last.a, last.b) = (Some(GroupIndex(0)), GroupIndex(6));

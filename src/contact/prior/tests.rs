@@ -118,7 +118,7 @@ fn a_row_is_pushed_through_to_its_end() {
 }
 
 #[test]
-fn what_is_pushed_against_a_wall_stays_finite_and_between() {
+fn an_object_pushed_against_a_wall_stays_finite_and_between() {
     let mut scene = table(vec![can(0.03, 0.0)]);
     scene.obstacles.push(Obstacle {
         name: "wall".into(),
@@ -206,7 +206,7 @@ fn where_a_frame_begins_from_makes_it_shorter_and_no_other() {
 /// A steadily pushed object does not depend on its momentum: its motion is determined by friction
 /// alone, though it would come to rest within a frame if the tool left it.
 #[test]
-fn what_a_steady_push_does_is_what_friction_makes_of_it() {
+fn a_steady_push_is_balanced_by_friction() {
     let long =
         Object::cuboid("long", [0.04, 0.2, 0.1]).mass(0.5).friction(0.5).at(0.02, -0.05, 0.0);
     let scene = table(vec![Object { support: Support::Corners, ..long }]);

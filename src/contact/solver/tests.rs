@@ -31,7 +31,7 @@ fn step(travel: f64) -> FrameStep {
 }
 
 #[test]
-fn what_sleeps_stays_and_what_is_awake_keeps_its_names() {
+fn sleeping_objects_stay_and_awake_objects_keep_their_names() {
     let (scene, step) = (scene(), step(0.005));
     let (bodies, state) = (bodies(&scene), scene.start());
     let mut solver = FrameSolver::default();

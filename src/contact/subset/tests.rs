@@ -8,7 +8,7 @@ use crate::{
 };
 
 #[test]
-fn what_is_taken_keeps_its_joints_and_groups_under_new_numbers() {
+fn a_subset_keeps_joints_and_groups_under_new_numbers() {
     let object = |k: usize| {
         let x = 0.1 * k as f64;
         Object::cylinder(format!("{k}"), 0.05, 0.1).mass(1.0 + k as f64).at(x, 0.0, 0.0)

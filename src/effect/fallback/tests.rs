@@ -69,7 +69,7 @@ fn routing_asks_for_the_start_of_the_job_and_not_of_the_scene() {
 }
 
 #[test]
-fn what_no_model_takes_is_said_simulated_or_refused() {
+fn jobs_of_no_model_are_reported_simulated_or_refused() {
     let (scene, jobs) = row();
     let alone = |out_of_range| {
         let model = CrowdLimit::new(Prior::default(), 2);

@@ -99,7 +99,7 @@ fn a_triangle_meets_a_wall_with_its_side_and_a_disc_with_its_tip() {
 }
 
 #[test]
-fn what_comes_through_a_face_comes_out_of_it_again_beside_whatever_flank() {
+fn a_body_in_a_face_is_resolved_through_that_face_beside_any_flank() {
     // Every corner is nearer to a flank than to the face that it crossed.
     let square = Footprint::Rectangle { half: Vector::new(0.032, 0.032) };
     let corners = [[0.0, 0.0], [0.064, 0.0], [0.064, 0.064], [0.0, 0.064]];

@@ -66,7 +66,7 @@ fn each_face_of_an_l_belongs_to_one_of_two_rectangles() {
 }
 
 #[test]
-fn what_does_not_touch_stays_apart_and_a_hole_is_no_fault() {
+fn separate_outlines_stay_apart_and_a_hole_is_no_error() {
     let apart = [extent(0.0, 0.0, 0.1, 0.1), extent(0.3, 0.0, 0.1, 0.1)];
     assert_eq!(outline(&apart).len(), 2);
     let frame = [

@@ -73,7 +73,7 @@ fn clockwise_corners_are_turned_around_and_reading_back_changes_nothing() {
 }
 
 #[test]
-fn what_is_no_convex_polygon_says_why() {
+fn invalid_convex_polygons_state_the_reason() {
     let square = [[0.0, 0.0], [0.1, 0.0], [0.1, 0.1], [0.0, 0.1]];
     let with = |at: usize, corner: [f64; 2]| {
         let mut corners = square.to_vec();

@@ -38,7 +38,7 @@ fn common_areas_are_clipped() {
 }
 
 #[test]
-fn what_is_left_of_a_polygon_and_what_is_common_make_it_up() {
+fn difference_and_intersection_partition_a_polygon() {
     let hexagon = |x: f64, y: f64, size: f64, turn: f64| -> Vec<Vector> {
         let angle = |k: i32| turn + std::f64::consts::TAU * f64::from(k) / 6.0;
         let corner = |k| Vector::new(x + size * angle(k).cos(), y + size * angle(k).sin());

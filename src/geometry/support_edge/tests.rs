@@ -46,7 +46,7 @@ fn it_turns_with_the_outline_and_swaps_under_a_mirror() {
 }
 
 #[test]
-fn what_has_no_area_has_no_support() {
+fn polygons_without_area_have_no_support() {
     let point = Vector::new(0.1, 0.0);
     assert_eq!(support_edge(&[], point, Vector::zeros()), None);
     assert_eq!(support_edge(&[point; 3], point, Vector::zeros()), None);

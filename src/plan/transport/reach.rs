@@ -168,10 +168,10 @@ impl<'a> Transport<'a> {
         if let Some(known) = self.alone.borrow().get(&(k, place)) {
             return Rc::clone(known);
         }
-        let nobody = self.taken(k, &[]);
+        let occupied = self.taken(k, &[]);
         let course = match self.groups[k].goal {
             Some((_, goal)) => {
-                let ways = self.ways(k, place, &nobody, |at, _| at == goal);
+                let ways = self.ways(k, place, &occupied, |at, _| at == goal);
                 let way = ways.to(goal);
                 let pushes = way.iter().map(|stretch| self.parted(k, *stretch).len()).sum();
                 Course { cost: ways.cost[goal], way, pushes }

@@ -123,8 +123,8 @@ impl Transport<'_> {
                 children.extend(self.child(node, other, *place, &found));
             }
             if free.is_empty() && deep > 1 {
-                let nobody = self.taken(other, &[]);
-                let found = self.ways(other, node.places[other], &nobody, |_, _| false);
+                let occupied = self.taken(other, &[]);
+                let found = self.ways(other, node.places[other], &occupied, |_, _| false);
                 for place in asides(&found).into_iter().take(1) {
                     let own = found.to(place);
                     let more: Vec<_> = ways.iter().copied().chain([(other, &own[..])]).collect();

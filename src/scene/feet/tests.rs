@@ -23,7 +23,7 @@ fn even_feet_have_the_moments_of_even_pressure() {
 }
 
 #[test]
-fn what_leans_has_the_centre_of_its_load_there() {
+fn the_load_of_a_leaning_object_has_its_centre_there() {
     for shape in SHAPES {
         for support in [Support::Even, Support::Corners] {
             let feet = support.feet(&shape);

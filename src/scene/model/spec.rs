@@ -33,7 +33,8 @@ use super::Assumptions;
 /// use pushplan::scene::{ModelKind, ModelSpec};
 ///
 /// let spec: ModelSpec = "prior,up-to=2|planar,step=1/120".parse()?;
-/// assert_eq!(spec, ModelSpec::from(ModelKind::PRIOR).up_to(2).or("planar,step=1/120".parse::<ModelSpec>()?));
+/// let fallback: ModelSpec = "planar,step=1/120".parse()?;
+/// assert_eq!(spec, ModelSpec::from(ModelKind::PRIOR).up_to(2).or(fallback));
 /// assert_eq!(spec.to_string(), "prior,up-to=2|planar,step=1/120");
 /// let error = "quasi-static".parse::<ModelSpec>().unwrap_err();
 /// assert!(error.to_string().contains("use network, prior, planar"));

@@ -26,7 +26,7 @@ fn pushed(engine: &Simulator, scene: &Scene) -> State {
 }
 
 #[test]
-fn what_nothing_comes_near_stays_to_the_last_bit_and_changes_nothing() {
+fn distant_objects_stay_to_the_last_bit_and_change_no_result() {
     for engine in &ENGINES {
         let alone = pushed(engine, &Scene::new([can("a", 0.1)]));
         let apart = Scene::new([can("a", 0.1), can("b", 0.4), can("c", 0.5)]);
@@ -44,7 +44,7 @@ fn what_nothing_comes_near_stays_to_the_last_bit_and_changes_nothing() {
 }
 
 #[test]
-fn what_is_pushed_into_others_wakes_one_after_the_other() {
+fn an_object_pushed_into_others_wakes_them_in_order() {
     for engine in &ENGINES {
         let scene = Scene::new([can("a", 0.1), can("b", 0.2), can("c", 0.3)]);
         let end = pushed(engine, &scene);
@@ -58,7 +58,7 @@ fn what_is_pushed_into_others_wakes_one_after_the_other() {
 }
 
 #[test]
-fn what_is_hit_fast_goes_as_far_as_momentum_and_friction_say() {
+fn a_fast_impact_moves_an_object_by_momentum_and_friction() {
     for engine in &ENGINES {
         let scene = Scene::new([can("a", 0.3), can("b", 0.42)]);
         let finger = Part::cuboid("finger", [0.02; 3], Pose::new(-1.0, 0.0, 0.0));

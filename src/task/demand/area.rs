@@ -219,7 +219,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_aimed_at_lies_deep_enough_inside() {
+    fn the_target_lies_deep_enough_inside() {
         let shape = Shape::Cuboid { size: [0.2, 0.1, 1.0] };
         let area = Area { shape, pose: Pose::new(0.5, 0.0, std::f64::consts::FRAC_PI_2) };
         let close = |point: Vector, x: f64, y: f64| (point - Vector::new(x, y)).norm() < 1e-9;

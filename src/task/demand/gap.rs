@@ -254,7 +254,7 @@ mod tests {
     /// Moved against its offset, the mug reaches the demanded gap, deep enough inside of the
     /// limits. This takes a few steps, because other parts may become the nearest.
     #[test]
-    fn what_is_missing_leads_to_where_the_gap_is_right() {
+    fn the_remaining_distance_leads_to_the_right_gap() {
         let scene = scene();
         for limits in [[0.1, f64::INFINITY], [0.0, 0.002], [0.03, 0.05], [0.0, 0.3]] {
             let goal = Goal::beside(0, Gap::between(&scene, 0, Body::Object(1), limits).unwrap());

@@ -72,7 +72,7 @@ fn misspelled_and_unknown_keys() {
 }
 
 #[test]
-fn what_is_tilted_elsewhere_stands_here() {
+fn tilted_objects_are_imported_upright() {
     assert_snapshot!(task(&[("mass: 0.4", "mass: 0.4, pitch_deg: 90")]), @r#"
     t.yaml:4:79: error: unknown key `pitch_deg`
       help: all bodies stand upright and rotate by `yaw_deg` only: write a lying box with other sizes; a lying can would roll, which is not modelled

@@ -70,7 +70,7 @@ fn a_prism_lies_about_its_centroid_or_the_centre_of_mass_that_is_given() {
 }
 
 #[test]
-fn what_is_no_convex_prism_is_refused_at_the_corner_that_is_wrong() {
+fn invalid_prisms_are_refused_at_the_wrong_corner() {
     let prism = |corners: &str| format!("{{prism: {{corners: [{corners}], height: 0.05}}}}");
     let of = |corners: &str| task(&prism(corners), "", "");
     refused(
@@ -132,7 +132,7 @@ parts:
 }
 
 #[test]
-fn headings_that_look_the_same_count_alike_unless_the_goal_says_otherwise() {
+fn symmetric_headings_are_equivalent_unless_the_goal_excludes_it() {
     let heading = ", heading_deg: 30, heading_tolerance_deg: 5";
     let alike = |shape: &str, more: &str| {
         read(shape, "", &format!("{heading}{more}")).goals[0].heading().unwrap().symmetry

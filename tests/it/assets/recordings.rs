@@ -49,7 +49,7 @@ fn block(language: &str) -> &str {
 }
 
 #[test]
-fn what_the_documentation_shows_can_be_read() {
+fn examples_of_the_documentation_are_readable() {
     let example = Recording::parse(block("json"), "r.json").expect("the example is sound");
     assert_eq!((example.scene.objects.len(), example.scene.joints.len()), (2, 1));
     assert_eq!(example.scene.objects[0].mass, 0.5);
@@ -108,8 +108,7 @@ fn a_simulation_written_as_a_recording_reads_back_and_replays_to_itself() {
 }
 
 #[test]
-fn what_hangs_together_across_a_gap_without_the_recording_saying_so_is_not_in_motion_at_the_start()
-{
+fn objects_linked_across_a_gap_by_no_stated_joint_do_not_move_at_the_start() {
     let can = |name: &str, x| Object::cylinder(name, 0.05, 0.1).at(x, 0.0, 0.0);
     for (gap, sound) in [(0.02, true), (0.2, false)] {
         let scene = Scene::new([can("a", 0.105), can("b", 0.205 + gap)])
@@ -170,7 +169,7 @@ fn slow_frames_are_joined_and_fast_ones_cut() {
 }
 
 #[test]
-fn everything_wrong_is_said_with_its_place() {
+fn every_error_has_its_location() {
     parse(SOUND).expect("the unspoiled recording is sound");
     let spoiled: &[(&str, &str, &str)] = &[
         ("pusher: [0.05, 0]", "pusher: [.nan, 0]", "r.yaml:11:15: error: expected a finite number"),
@@ -332,7 +331,7 @@ frames:
 }
 
 #[test]
-fn what_moves_faster_than_it_says_is_refused() {
+fn motion_faster_than_the_stated_velocity_is_refused() {
     let refused = |velocity: &str| {
         let text = SOUND.replace("yaw_deg: 10}", &format!("yaw_deg: 10{velocity}}}"));
         let sliding = text.replace(

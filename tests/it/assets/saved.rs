@@ -173,7 +173,7 @@ fn damaged_plan_files_are_refused() {
 }
 
 #[test]
-fn what_could_not_be_read_again_is_not_written() {
+fn unreadable_values_are_not_written() {
     let place = tempfile::tempdir().unwrap();
     let path = place.path().join("plan.json");
     std::fs::write(&path, "old").unwrap();
@@ -206,7 +206,7 @@ fn a_file_that_cannot_be_written_leaves_nothing_behind() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_read_only_folder_is_told() {
+fn a_read_only_folder_is_reported() {
     // File permissions cannot be used, because they do not restrict the root user, who may run the
     // tests.
     let faults = write_atomic("/proc/plan.json", b"new").unwrap_err().to_string();

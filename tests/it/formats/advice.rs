@@ -114,7 +114,7 @@ fn mesh(attributes: &str, side: f64) -> String {
 }
 
 #[test]
-fn options_do_what_the_advice_says() {
+fn options_follow_the_advice() {
     let named = |names: &[&str]| Wanted {
         bodies: names.iter().map(|name| (*name).to_owned()).collect(),
         ..Wanted::default()
@@ -170,7 +170,7 @@ fn options_do_what_the_advice_says() {
 }
 
 #[test]
-fn tools_become_one_piece_as_the_advice_says() {
+fn tools_become_one_piece_after_following_the_advice() {
     let tool = |inside: &str| mjcf(&format!("<body name='a'>{inside}</body>"));
     let many: String = (0..33)
         .map(|k| format!("<geom type='box' size='.01 .01 .02' pos='{} 0 0'/>", 0.02 * f64::from(k)))

@@ -108,13 +108,13 @@ fn several_solids_of_a_body_are_parts_of_one_object() {
 }
 
 #[test]
-fn what_has_no_word_is_a_fault_with_its_place() {
+fn unsupported_elements_are_errors_with_location() {
     let text = include_str!("../../cmd/import.in/bad.xml");
     assert_snapshot!(faults(text, false));
 }
 
 #[test]
-fn each_thing_that_cannot_be_said_is_refused() {
+fn each_unsupported_element_is_refused() {
     let free = |inside: &str| {
         mjcf(&format!("<body name='b' pos='0.5 0 0.05'><freejoint/>{inside}</body>"))
     };

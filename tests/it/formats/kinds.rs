@@ -46,7 +46,7 @@ fn mjcf(bodies: &str) -> String {
 }
 
 #[test]
-fn what_means_nothing_is_not_judged() {
+fn irrelevant_elements_are_not_checked() {
     let joint = "<link name='world'/><joint name='j' type='floating'><parent link='world'/>\
                  <child link='a'/><origin xyz='0.5 0 0.03'/><axis xyz='0 0 0'/></joint>";
     let (task, _) = taken(&urdf(&(link("a", "") + joint)), &all()).expect("a task");
@@ -76,7 +76,7 @@ fn friction_is_found_wherever_simulators_look() {
 }
 
 #[test]
-fn what_moves_otherwise_is_a_fault_or_a_note() {
+fn unsupported_motions_are_errors_or_notes() {
     let slide = |more: &str, limits: &str, kind: &str| {
         let joint = format!(
             "<joint name='j' type='{kind}'><parent link='a'/><child link='b'/>\
@@ -173,7 +173,7 @@ fn a_body_of_several_solids_is_one_object_with_its_mass_where_it_should_be() {
 }
 
 #[test]
-fn bodies_stand_freely_where_somebody_says_so_and_are_set_down() {
+fn bodies_stand_freely_on_request_and_are_set_down() {
     let held = "<mujoco><worldbody><body><body name='object'>\
                 <geom type='box' size='.05 .04 .03' density='100'/></body></body></worldbody></mujoco>";
     let fault = taken(held, &all()).expect_err("a fault");
@@ -225,7 +225,7 @@ fn doors_and_drawers_are_joined_to_the_world() {
 }
 
 #[test]
-fn a_centre_of_mass_outside_is_told_and_one_off_an_axis_makes_a_prism() {
+fn a_centre_of_mass_outside_is_reported_and_one_off_an_axis_makes_a_prism() {
     let text = urdf(&link("a", "").replace("<inertial>", "<inertial><origin xyz='0.2 0 0'/>"));
     let fault = taken(&text, &all()).expect_err("a fault");
     assert!(fault.contains("200.0 mm from the middle, outside its outline"), "{fault}");
@@ -243,7 +243,7 @@ fn a_centre_of_mass_outside_is_told_and_one_off_an_axis_makes_a_prism() {
 }
 
 #[test]
-fn what_weighs_nothing_weighs_what_it_is_made_of() {
+fn solids_without_mass_weigh_by_their_density() {
     let text = urdf(&link("a", "").replace("'0.5'", "'0'"));
     let fault = taken(&text, &all()).expect_err("a fault");
     assert!(fault.contains("`a` has no mass") && fault.contains("--density 700"), "{fault}");
@@ -263,7 +263,7 @@ fn what_weighs_nothing_weighs_what_it_is_made_of() {
 }
 
 #[test]
-fn what_is_hollow_weighs_as_its_surface_does() {
+fn hollow_solids_weigh_by_their_surface() {
     let hollow = |geom: &str| {
         let text = mjcf(&format!(
             "<body name='b' pos='.5 0 .05'><freejoint/><geom {geom} shellinertia='true'/></body>"

@@ -123,7 +123,7 @@ fn meshes_and_includes_lie_beside_the_file_or_below_what_is_named() {
 }
 
 #[test]
-fn bodies_of_other_models_are_attached_where_the_file_says() {
+fn bodies_of_other_models_are_attached_at_their_frames() {
     let scene = "<mujoco><asset><model name='m' file='parts/tray.xml'/></asset><worldbody>\
                  <geom type='plane' size='1 1 1'/>\
                  <body name='left' pos='.5 .2 0' euler='0 0 90'><freejoint/>\

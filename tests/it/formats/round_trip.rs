@@ -164,7 +164,7 @@ fn every_shipped_task_comes_back_with_its_sizes_masses_frictions_and_places() {
 }
 
 #[test]
-fn goals_come_back_as_places_and_headings_or_are_said_to_be_left_out() {
+fn goals_return_as_positions_and_headings_or_are_reported_as_omitted() {
     let library = ToolLibrary::embedded().unwrap();
     let stick = library.get("stick").unwrap();
     let back = |goal: &str| {

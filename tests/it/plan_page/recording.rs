@@ -78,7 +78,7 @@ fn a_recording_is_played_with_what_is_believed_of_it() {
 }
 
 #[test]
-fn the_command_writes_the_page_and_says_how_to_infer_the_same() {
+fn the_command_writes_the_page_and_the_command_to_infer_the_same() {
     let folder = TempDir::new().expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
     let file = "tests/it/assets/push.recording.json";

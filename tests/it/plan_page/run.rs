@@ -18,7 +18,7 @@ use super::{LARGEST, SHOWN, data, error_at, exit_code, follow, number};
 #[test]
 fn a_run_is_played_with_what_was_predicted_and_believed() {
     let trace = run("everything-hidden", 2);
-    assert!(trace.steps.len() >= 3, "several pushes are to be played");
+    assert!(trace.steps.len() >= 3, "too few pushes to play");
     let real = really(&trace);
     let folder = TempDir::new().expect("a folder");
     let recipe = Recipe { command: "pushplan run".to_owned(), python: String::new() };
@@ -81,7 +81,7 @@ fn a_run_is_played_with_what_was_predicted_and_believed() {
 }
 
 #[test]
-fn what_really_happened_is_simulated_again_to_the_bit() {
+fn the_true_run_is_simulated_again_to_the_bit() {
     let trace = run("coupled-or-not", 2);
     let real = really(&trace);
     assert_eq!(real.len(), trace.steps.len());
@@ -108,7 +108,7 @@ fn what_really_happened_is_simulated_again_to_the_bit() {
 }
 
 #[test]
-fn the_command_writes_the_page_and_says_how_to_make_it_again() {
+fn the_command_writes_the_page_and_the_command_to_write_it_again() {
     let folder = TempDir::new().expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
     let task = "tasks/coupled-or-not.yaml";

@@ -99,7 +99,7 @@ fn things_stand_in_3d_where_they_were_computed() {
 }
 
 #[test]
-fn a_browser_that_cannot_draw_in_3d_says_so() {
+fn a_browser_without_3d_shows_a_message() {
     let Some(mut browser) = Browser::start_with(&["--disable-gpu", "--disable-3d-apis"]) else {
         return;
     };

@@ -8,14 +8,16 @@
 //! use pushplan_act::{RunSettings, Runner, SimulatedWorld, Trace, hidden};
 //!
 //! let library = ToolLibrary::embedded()?;
-//! let task = Task::parse(include_str!("../../../../tasks/hidden-hinge.yaml"), "hidden-hinge.yaml")?;
+//! let text = include_str!("../../../../tasks/hidden-hinge.yaml");
+//! let task = Task::parse(text, "hidden-hinge.yaml")?;
 //! let planner = Planner::for_effort(Effort::Draft)?.build();
 //! // A robot's table would stand here.
 //! let truth = hidden(&task, &library, 1)?;
 //! let mut world = SimulatedWorld::new(truth);
 //! let mut trace = Trace::new(task, RunSettings::default(), "draft".into(), None);
 //! let runner = Runner::new(&planner, &library);
-//! runner.run(&mut trace, &mut world, &mut |_| Ok(()), &pushplan::internals::progress::NoProgress)?;
+//! let progress = pushplan::internals::progress::NoProgress;
+//! runner.run(&mut trace, &mut world, &mut |_| Ok(()), &progress)?;
 //! assert!(trace.task.goals[0].reached(world.state()));
 //! # Ok::<(), pushplan::Error>(())
 //! ```

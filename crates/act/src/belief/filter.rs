@@ -374,7 +374,7 @@ mod tests {
     };
 
     #[test]
-    fn what_noise_may_have_moved_apart_may_be_joined() {
+    fn objects_that_noise_may_have_separated_may_be_joined() {
         let can = |name: &str, x| Object::cylinder(name, 0.05, 0.1).at(x, 0.0, 0.0);
         let scene = Scene::new([can("a", 0.0), can("b", 0.1 + JOINABLE + 1e-3), can("c", 0.5)]);
         let none = |position: f64| {

@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_half_of_the_weight_is_the_median() {
+    fn a_point_with_half_of_the_weight_is_the_median() {
         let points = [(2.0, [0.0, 0.0]), (1.0, [1.0, 0.0]), (1.0, [0.0, 3.0])];
         let points = points.map(|(weight, [x, y])| (weight, Vector::new(x, y)));
         assert_eq!(geometric_median(&points), Vector::zeros());

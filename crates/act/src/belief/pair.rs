@@ -215,7 +215,7 @@ impl PairBelief {
 
     /// Returns the rank of a pair among pairs whose joints would close a loop.
     ///
-    /// All objects of a rigid group move alike relative to a third, so fixed joints rank first.
+    /// Objects of a rigid group all move alike relative to a third, so fixed joints rank first.
     /// Then come joints whose anchor or axis is regular for the pair. The regulator already
     /// accounts for this.
     pub fn rank(&self) -> f64 {
@@ -381,7 +381,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_the_regulator_says_counts_instead_of_the_filter() {
+    fn the_regulator_replaces_the_filter() {
         let spread = Matrix3::from_diagonal(&Vector3::new(1e-8, 1e-8, 1e-6));
         let seen = Vector3::new(0.1, 0.0, 0.0);
         let mut pair = PairBelief::new([0, 1], seen, &spread, Vector::new(0.05, 0.0), 1.0);

@@ -37,7 +37,7 @@ pub struct Numbers {
     pub frictions: Vec<[f64; 2]>,
     /// Friction value of the table.
     pub table_friction: [f64; 2],
-    /// Support radius of every object, as a share of its corners' distance.
+    /// Support radius of every object relative to its corners' distance.
     pub spreads: Vec<[f64; 2]>,
 }
 

@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stands_still_is_where_it_was_seen_on_average() {
+    fn a_resting_object_is_at_its_mean_observed_pose() {
         let (mean, variance) = seen(Error::new(4.0, 0.0), [1.0, -1.0, 2.0, 0.0, 1.0], 1.0);
         // For Gaussians the precisions add up: 1/4 of the prior and 1 of each observation.
         assert!((mean - 3.0 / 5.25).abs() < 1e-12, "{mean}");

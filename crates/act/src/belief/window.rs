@@ -17,7 +17,7 @@ use super::{
 /// is then the main evidence for the joint type.
 const MODEL: (f64, [f64; 2], f64) = (4e-4, [0.2, 0.1], 0.01);
 
-/// Standard deviation of the error at a single instant, as a share of the error at the end.
+/// Standard deviation of the error at a single instant relative to the error at the end.
 pub(super) const UNEVEN: f64 = 0.2;
 
 /// Standard deviation that the rollout of a window adds to the error of an unobserved heading:

@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn a_flat_posterior_says_nothing() {
+    fn a_flat_posterior_has_no_information() {
         let prior = Span::new(0.2, 1.0);
         let grid =
             Grid { spread: Axis::over(prior, 21), friction: Axis::over(Span::new(0.0, 1.0), 21) };

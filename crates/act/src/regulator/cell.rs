@@ -71,8 +71,8 @@ impl Regulator {
 
     /// Updates the hidden state with a window and returns the corrections.
     ///
-    /// `features` are [P, F] for `pairs` of this many `objects`. Pairs for which `informative` is `false`
-    /// are neither updated nor corrected (`None`).
+    /// `features` are [P, F] for `pairs` of this many `objects`. Pairs for which `informative` is
+    /// `false` are neither updated nor corrected (`None`).
     pub fn step(
         &self,
         features: &[f32],

@@ -131,7 +131,8 @@ fn note_another_machine(dir: &Path, before: Option<String>, progress: &dyn Progr
     if let Some(writer) = before.filter(|writer| !writer.ends_with(&here)) {
         progress.note(&format!(
             "{writer} was the last to write to {} and did not report its end; if it still runs, \
-             stop one of the two processes, because locks of this folder do not work across machines",
+             stop one of the two processes, because locks of this folder do not work across \
+             machines",
             dir.display()
         ));
     }
@@ -176,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lock_left_behind_is_taken_and_told_if_it_is_of_another_machine() {
+    fn a_stale_lock_is_taken_and_reported_if_it_is_from_another_machine() {
         let folder = tempfile::tempdir().expect("a folder");
         for (left, note) in [
             (format!("process 1 on {}\n", host()), None),

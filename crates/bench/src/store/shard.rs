@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_shard_is_refused() {
+    fn invalid_shards_are_refused() {
         assert_eq!("2/4".parse(), Shard::new(2, 4));
         for text in ["", "2", "0/4", "5/4", "1/0", "-1/2", "1/2/3", "1/100001", "a/b"] {
             let error = text.parse::<Shard>().expect_err(text);

@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_stand_is_no_success_and_still_an_error() {
+    fn a_toppled_object_is_no_success_and_still_an_error() {
         let records = [
             record(0.01, true, Some(1)),
             record(0.05, true, Some(3)),

@@ -36,7 +36,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_sure_and_right_half_of_the_time_is_off_by_half() {
+    fn certain_predictions_that_are_half_right_have_a_calibration_error_of_half() {
         let mut sure = Calibration::default();
         assert_eq!(sure.error(), 0.0);
         sure.count(&[1.0, 0.0], 0);

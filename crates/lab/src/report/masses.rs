@@ -1,4 +1,4 @@
-//! Accuracy of estimated masses, as a table.
+//! Table of the accuracy of estimated masses.
 
 use pushplan_report::Align::{Left, Right};
 use pushplan_report::{Document, NONE, Section, Table};

@@ -1,4 +1,4 @@
-//! Information gained by probes, as a table.
+//! Table of the information gained by probes.
 
 use pushplan_act::act::ProbeRule;
 use pushplan_report::Align::{Left, Right};

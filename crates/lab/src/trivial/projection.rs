@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn the_three_models_end_where_their_rules_say() {
+    fn the_three_models_end_at_the_poses_of_their_rules() {
         for (model, expected, slack) in [
             (&Still as &dyn EffectModel, [0.065, 0.185], 0.0),
             // The object sticks at the first small step with an overlap, so up to a step deep.

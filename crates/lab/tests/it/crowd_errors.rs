@@ -159,8 +159,8 @@ fn the_command_measures_sets_and_writes_what_it_found() {
     assert_eq!(report["set"]["objects"], 6);
     let models = report["models"].as_array().expect("models");
     let names: Vec<&str> = models.iter().filter_map(|model| model["model"].as_str()).collect();
-    let beside = "projection,joints=guessed projection,joints=none projection,joints=fixed prior follow \
-                  still planar,friction=70% planar,friction=130% planar,start=100um";
+    let beside = "projection,joints=guessed projection,joints=none projection,joints=fixed prior \
+                  follow still planar,friction=70% planar,friction=130% planar,start=100um";
     assert_eq!(names.join(" "), format!("projection {beside}"));
     let written = std::fs::read(out.join("evaluation.json"));
     let written: Json = serde_json::from_slice(&written.expect("a file")).expect("JSON");

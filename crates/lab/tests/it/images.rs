@@ -63,7 +63,7 @@ fn random(features: ImageFeatures, prior: bool) -> ImageWeights {
 }
 
 #[test]
-fn what_predicts_computes_what_training_differentiates() {
+fn prediction_equals_the_forward_pass_of_training() {
     let tensor = |values: &[f32], shape: &[usize]| {
         Tensor::from_slice(values, shape, &Device::Cpu).expect("a tensor")
     };
@@ -114,7 +114,7 @@ fn mirrored_and_moved_lever_ups_have_mirrored_and_moved_predictions() {
 }
 
 #[test]
-fn only_a_depth_image_tells_boxes_from_lying_cylinders() {
+fn only_a_depth_image_distinguishes_boxes_from_lying_cylinders() {
     let drawn = episodes(LeverPreset::Lying, 4, 32);
     let jobs: Vec<LeverJob> = drawn.iter().map(LeverEpisode::job).collect();
     let round = |job: &LeverJob| job.scene.plates[0].slabs.len() > 1;

@@ -38,7 +38,7 @@ fn shards_on_any_number_of_threads_merge_to_the_bytes_of_one_run() {
 }
 
 #[test]
-fn recordings_are_predicted_on_with_what_is_told_of_their_joints() {
+fn recordings_are_predicted_further_with_the_stated_joints() {
     let library = ToolLibrary::embedded().expect("the shipped tools");
     let scene =
         load_task(format!("{ROOT}/tasks/jointed-pair.yaml"), &library).expect("a task").scene;

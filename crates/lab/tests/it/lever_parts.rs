@@ -46,7 +46,7 @@ fn mirrored_and_moved_drives_have_mirrored_and_moved_predictions() {
 }
 
 #[test]
-fn what_is_predicted_together_or_on_more_threads_has_the_same_bits() {
+fn predictions_in_batches_or_on_more_threads_have_the_same_bits() {
     let model = LeverParts::new(&random(false));
     let jobs = jobs(LeverPreset::Drive, 40);
     let pool = |count| rayon::ThreadPoolBuilder::new().num_threads(count).build().expect("a pool");

@@ -39,7 +39,7 @@ fn graphs(episodes: &[LeverEpisode]) -> PartGraphs {
 }
 
 #[test]
-fn what_predicts_computes_what_training_differentiates() {
+fn prediction_equals_the_forward_pass_of_training() {
     let graphs = graphs(&episodes(5, 6));
     let normaliser = Normaliser::measure(&PARTS, graphs.rows());
     let mut parameters = Parameters::fresh_of(&PARTS, &CONFIG, 2);
@@ -62,7 +62,7 @@ fn what_predicts_computes_what_training_differentiates() {
 }
 
 #[test]
-fn what_is_wanted_of_a_step_leads_where_it_should() {
+fn the_target_of_a_step_leads_to_the_true_state() {
     let [a, b] = &episodes(6, 2)[..] else { panic!("two lever-ups") };
     for prior in [None, Some(&LeverPrior::default())] {
         let course = LeverCourse::new(&a.job(), prior).expect("cuboids");

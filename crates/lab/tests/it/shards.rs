@@ -56,7 +56,7 @@ fn of_the_trade_off() {
 }
 
 #[test]
-fn what_is_measured_in_one_go_has_none() {
+fn measurements_without_shards_have_none() {
     let folder = TempDir::new().expect("a folder");
     let output = on("cost tasks/pull-back.yaml", folder.path(), Some((1, 2)));
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));

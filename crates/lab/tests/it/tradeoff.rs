@@ -178,7 +178,7 @@ fn every_effort_is_a_measured_level_that_no_other_makes_needless() {
 }
 
 #[test]
-fn the_page_says_what_each_effort_costs_and_gives() {
+fn the_page_states_cost_and_gain_of_each_effort() {
     let report: TradeOffReport = serde_json::from_str(MEASURED).unwrap();
     let document = tradeoff_document(&report);
     let published = tables().find(|table| table.name == "tradeoff").expect("a published table");
@@ -245,7 +245,7 @@ fn pushes_are_left_to_the_planar_engine_where_the_measured_costs_cross() {
 }
 
 #[test]
-fn what_models_say_of_their_errors_is_what_was_measured() {
+fn stated_model_errors_equal_the_measured_errors() {
     let report: TradeOffReport = serde_json::from_str(MEASURED).unwrap();
     let library = ToolLibrary::embedded().unwrap();
     let kinds = [SuiteKind::Single, SuiteKind::Touching];

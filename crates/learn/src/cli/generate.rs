@@ -27,8 +27,8 @@ use crate::dataset::{
 #[command(
     after_help = "The same settings always give the same files. An interrupted run (Ctrl-C) keeps \
 its finished episodes; rerun the same command to resume. --shard 2/3 generates every third \
-episode, for example on another machine. `pushplan-learn merge DIR SHARD...` merges the shards into the \
-files of a single run, and `pushplan-learn status SHARD...` lists missing shards.
+episode, for example on another machine. `pushplan-learn merge DIR SHARD...` merges the shards \
+into the files of a single run, and `pushplan-learn status SHARD...` lists missing shards.
 
 In crowds, the objects, joints, solids and speed are random by default. The options above fix them \
 for test sets such as the published test sets (hand at 0.21 m/s). Lever-ups with different seeds \

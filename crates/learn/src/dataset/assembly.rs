@@ -19,7 +19,7 @@ const SAME_SIZE: f64 = 0.35;
 /// Share of parts rotated by 45 degrees relative to their parent part.
 const DIAGONAL: f64 = 0.2;
 
-/// Minimum contact width of two glued faces, as a share of the narrower face.
+/// Minimum contact width of two glued faces relative to the narrower face.
 const LEAST_OVERLAP: f64 = 0.4;
 
 /// Vertical extent of the parts, metres.

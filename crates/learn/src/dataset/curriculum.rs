@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_likely_changes_from_block_to_block_and_not_within_one() {
+    fn probabilities_change_between_blocks_and_not_within_one() {
         let config = DatasetConfig::default();
         let blocks: Vec<Block> = (0..100).map(|k| Block::of(&config, k * BLOCK)).collect();
         for (k, block) in blocks.iter().enumerate() {

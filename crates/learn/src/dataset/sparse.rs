@@ -41,7 +41,7 @@ const SIDE: f64 = 0.33;
 /// Range of the gap between hand and target at the start of a stroke, metres.
 const GAP: (f64, f64) = (0.004, 0.06);
 
-/// Maximum lateral offset of a stroke, as a share of the largest offset with contact.
+/// Maximum lateral offset of a stroke relative to the largest offset with contact.
 const OFF_CENTRE: f64 = 0.8;
 
 /// Maximum number of attempts to aim a stroke before the scene is rejected. After `TRIES_UNTOUCHED`

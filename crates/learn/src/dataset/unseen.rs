@@ -13,7 +13,7 @@ use super::distributions::{log_uniform, uniform, weighted};
 /// points.
 const SUPPORTS: [f64; 3] = [0.35, 0.40, 0.25];
 
-/// Radius of spread supports, as a share of the corners' distance.
+/// Radius of spread supports relative to the corners' distance.
 const SPREAD: Span = Span::new(0.4, 1.0);
 
 /// Minimum share of the weight on one of three points; with less, objects tip at every contact.

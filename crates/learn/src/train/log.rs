@@ -36,7 +36,8 @@ impl<Score: Display> Display for Line<Score> {
         let Self { step, loss, examples_per_second, held_out, .. } = self;
         write!(
             f,
-            "step {step:>7}  loss {loss:.4}  held out: {held_out}  {examples_per_second:.0} examples/s"
+            "step {step:>7}  loss {loss:.4}  held out: {held_out}  \
+             {examples_per_second:.0} examples/s"
         )
     }
 }

@@ -28,7 +28,7 @@ fn an_interrupted_training_saves_and_goes_on_to_the_same_bytes() {
 }
 
 #[test]
-fn a_test_set_is_made_as_asked_and_says_so_in_its_manifest() {
+fn a_test_set_follows_its_settings_and_states_them_in_its_manifest() {
     let folder = TempDir::new().expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
     let crowd = "--objects 6 --joints mixed --solids cylinders --speed 0.21";
@@ -50,7 +50,7 @@ fn an_interrupted_generation_keeps_what_it_has_and_goes_on_to_the_same_bytes() {
 }
 
 #[test]
-fn what_does_not_fit_together_in_training_is_refused() {
+fn inconsistent_training_options_are_refused() {
     let wrong = [
         ("predictor runs/none --width 7", "--width must be even, not 7"),
         ("predictor runs/none --learning-rate 2", "--learning-rate must be above 0"),

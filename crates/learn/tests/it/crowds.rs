@@ -146,7 +146,7 @@ fn kind(kind: &JointKind) -> usize {
 }
 
 #[test]
-fn test_sets_hold_what_their_constraints_say() {
+fn test_sets_satisfy_their_constraints() {
     for (preset, counts) in [(Preset::Sparse, [6, 12]), (Preset::Dense, [6, 9])] {
         for count in counts {
             for rule in [JointRule::None, JointRule::Fixed, JointRule::Mixed] {

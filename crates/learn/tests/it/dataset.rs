@@ -208,7 +208,7 @@ fn an_interrupted_generation_goes_on_to_the_same_files_and_reads_back_what_memor
 }
 
 #[test]
-fn what_follows_a_damaged_or_cut_record_is_made_again_with_a_note() {
+fn records_after_a_damaged_or_cut_record_are_regenerated_with_a_note() {
     let dir = tempfile::tempdir().unwrap();
     generate(&small(), Shard::WHOLE, dir.path(), &NoProgress).unwrap();
     let before = files(dir.path());

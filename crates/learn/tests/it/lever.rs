@@ -41,7 +41,7 @@ fn weights(features: LeverFeatures, sizes: LeverSizes, parameters: Parameters) -
 }
 
 #[test]
-fn the_cell_computes_what_training_differentiates() {
+fn the_cell_equals_the_forward_pass_of_training() {
     let plain = LeverSizes { still: 7, moving: 4, width: 11, ..LeverSizes::default() };
     for sizes in [plain, LeverSizes { feedback: true, ..plain }] {
         computes_what_training_differentiates(sizes);
@@ -163,7 +163,7 @@ fn training_learns_and_resumes_to_the_same_bits() {
 
 /// Tests feedback of predictions up to the first slip, as in Tekden (2020).
 #[test]
-fn what_is_fed_back_resumes_to_the_same_bits() {
+fn fed_back_training_resumes_to_the_same_bits() {
     let (data, held_out) = (episodes(1, 48), episodes(2, 12));
     let mut settings = LeverSettings {
         features: LeverFeatures::ShapeContext,

@@ -28,7 +28,7 @@ fn config(preset: LeverPreset, episodes: u64) -> LeverConfig {
 
 /// Blocks of a drive have different heights, which a former binary form omitted.
 #[test]
-fn what_is_read_is_what_was_drawn() {
+fn data_read_equal_the_drawn_data() {
     for preset in FAMILIES {
         let config = config(preset, 8);
         let folder = tempfile::tempdir().expect("a folder");

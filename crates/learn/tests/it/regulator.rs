@@ -32,7 +32,7 @@ fn settings() -> RegulatorSettings {
 }
 
 #[test]
-fn the_cell_computes_what_training_differentiates() {
+fn the_cell_equals_the_forward_pass_of_training() {
     let (features, width, objects, windows) = (7, 5, 4, 6);
     let pairs = [[0, 1], [1, 2], [0, 3]];
     let weights = random_weights(features, width);

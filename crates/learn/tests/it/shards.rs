@@ -22,7 +22,7 @@ fn of_training_data() {
 }
 
 #[test]
-fn what_is_missing_is_named_as_array_jobs_take_it() {
+fn missing_shards_are_listed_in_the_format_of_array_jobs() {
     let home = TempDir::new().expect("a folder");
     let command = "generate --episodes 18 --seed 5";
     let folder = |number: usize| home.path().join(format!("part-{number}"));

@@ -45,7 +45,7 @@ fn a_plate_upside_down_lies_on_its_upper_face() {
 }
 
 #[test]
-fn what_does_not_lie_on_the_table_is_not_pushed() {
+fn objects_above_the_table_are_not_pushed() {
     assert_eq!(task().after(&[upside_down(0.02)]), None, "on a block");
     let leaning = Pose3::upright(Pose::default(), 0.03).turned_about(
         Vector3::zeros(),

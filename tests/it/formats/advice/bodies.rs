@@ -3,7 +3,7 @@
 use super::{As::Objects as O, BOX, Row, edited, free, mjcf};
 
 #[test]
-fn bodies_and_joints_of_mjcf_become_what_the_advice_says() {
+fn bodies_and_joints_of_mjcf_follow_the_advice() {
     let pair = |joint: &str| {
         free(&format!("{BOX}<body name='c' pos='.2 0 0'><joint {joint}/>{BOX}</body>"))
     };

@@ -22,7 +22,7 @@ fn helped(refused: Folder<'_>, advice: &str, followed: Folder<'_>) {
 }
 
 #[test]
-fn files_are_found_and_read_as_the_advice_says() {
+fn files_are_found_and_read_after_following_the_advice() {
     let body = "<worldbody><geom type='plane' size='1 1 1'/><body name='c' pos='.5 0 0'><freejoint/>\
                 <geom type='mesh' mesh='cube'/></body></worldbody>";
     let mesh = |file: &str| {

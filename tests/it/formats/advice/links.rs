@@ -5,7 +5,7 @@ use pushplan_import::Wanted;
 use super::{As::Objects as O, Row, edited, helped, import, jointed, link, urdf};
 
 #[test]
-fn links_and_joints_of_urdf_become_what_the_advice_says() {
+fn links_and_joints_of_urdf_follow_the_advice() {
     let cube = "<box size='.1 .1 .1'/>";
     let one = link("a", cube);
     let gazebo = |inside: &str| urdf(&format!("{one}<gazebo reference='a'>{inside}</gazebo>"));

@@ -3,7 +3,7 @@
 use super::{As::Objects as O, BOX, Row, edited, free, mesh, with};
 
 #[test]
-fn numbers_and_names_of_mjcf_are_corrected_as_the_advice_says() {
+fn numbers_and_names_of_mjcf_are_corrected_by_the_advice() {
     let geom = "<geom type='mesh' mesh='m'/>";
     let classes = "<default><default class='own'><geom mass='.3'/></default></default>";
     let rows: &[Row<'_>] = &[

@@ -83,7 +83,7 @@ fn objects_that_were_taken_for_each_other_are_changed_back() {
 }
 
 #[test]
-fn what_cannot_be_is_not_seen_and_another_table_is_an_error() {
+fn impossible_observations_are_dropped_and_another_table_is_an_error() {
     let mut wild = looks();
     wild[4].seen[1] = Some(ObservedPose { position: Vector::new(2.0, 2.0), heading: None });
     wild[5].seen[0] = Some(ObservedPose { position: Vector::new(f64::NAN, 0.0), heading: None });

@@ -190,7 +190,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_push_tells_as_much_as_there_are_samples_to_tell_apart() {
+    fn the_information_of_a_push_is_limited_by_the_number_of_distinct_samples() {
         assert_eq!(information(8, |_, _| 1.0), 0.0);
         let same = |s: usize, t: usize| f64::from(u8::from(s == t));
         assert!((information(8, same) - 8f64.ln()).abs() < 1e-12);

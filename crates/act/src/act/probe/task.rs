@@ -25,7 +25,7 @@ use super::super::judge::{Reach, Samples};
 use super::super::settings::RunSettings;
 use super::choose::{Probe, choose};
 
-/// Minimum value of perfect information for which a probe is made, as a share of the samples.
+/// Minimum value of perfect information for which a probe is made, relative to the sample count.
 const WORTH: f64 = 0.1;
 
 /// Travel of a probe, metres.

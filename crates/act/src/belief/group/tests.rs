@@ -30,7 +30,7 @@ fn of_what_was_played_the_likeliest_is_found_for_all_and_for_each_type_of_a_pair
 }
 
 #[test]
-fn pairs_are_told_of_in_the_windows_of_a_push_and_not_in_those_before() {
+fn pairs_are_informative_only_in_the_windows_of_a_push() {
     let mut belief = four_cans();
     for informative in [[true, false, false, true], [false, true, false, true], [false; 4]] {
         let evidence = informative.map(|informative| informative.then_some([0.0; 4])).to_vec();

@@ -36,7 +36,7 @@ fn observed(pairs: &'static [[usize; 2]], score: fn(f64) -> f64) -> Masses {
 }
 
 #[test]
-fn a_push_tells_the_ratio_before_it_tells_either_mass() {
+fn a_push_determines_the_mass_ratio_before_either_mass() {
     // With a ratio of 1/2 to 1/4, only light and medium or medium and heavy fit.
     let shares = observed(&[[0, 1]], |log| -4.0 * (log + 1.6).powi(2)).shares();
     let [first, second] = [0, 1].map(|k| shares.objects[k].clone().expect("they touched"));
@@ -48,7 +48,7 @@ fn a_push_tells_the_ratio_before_it_tells_either_mass() {
 }
 
 #[test]
-fn what_fits_one_pair_of_ranges_alone_tells_both() {
+fn motion_that_fits_only_one_pair_of_ranges_determines_both_masses() {
     let shares = observed(&[[1, 0]], |log| -4.0 * (log + 3.3).powi(2)).shares();
     assert!(shares.objects[0].as_ref().is_some_and(|of| of[0] > 0.99), "{shares:?}");
     assert!(shares.objects[1].as_ref().is_some_and(|of| of[2] > 0.99), "{shares:?}");
@@ -77,7 +77,7 @@ fn where_not_all_assignments_are_kept_no_mass_is_certain() {
 }
 
 #[test]
-fn what_is_drawn_is_as_frequent_as_it_is_believed_where_something_may_be_lost() {
+fn samples_are_as_frequent_as_believed_if_objects_may_be_lost() {
     let objects = 5;
     let mut masses = Masses::new(objects, &RANGES);
     masses.objects = (0..objects).collect();
@@ -108,7 +108,7 @@ fn what_is_drawn_is_as_frequent_as_it_is_believed_where_something_may_be_lost() 
 }
 
 #[test]
-fn a_push_in_which_nothing_touches_and_one_that_broke_off_say_nothing() {
+fn pushes_without_contact_and_aborted_pushes_give_no_information() {
     assert_eq!(observed(&[], |_| 0.0), Masses::new(3, &RANGES));
     let shares = observed(&[[0, 1]], |_| f64::NAN).shares();
     let even = |of: &Vec<f64>| of.iter().all(|share| (share - 1.0 / 3.0).abs() < 1e-12);

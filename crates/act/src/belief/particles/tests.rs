@@ -9,7 +9,7 @@ fn scene() -> Scene {
 }
 
 #[test]
-fn what_is_known_stays_and_what_is_unknown_spreads_around_what_is_stated() {
+fn known_values_stay_and_unknown_values_spread_around_the_stated_ones() {
     let scene = scene();
     let stated = Physics::stated(&scene);
     let unknown = Unknowns { masses: true, ..Unknowns::NONE };

@@ -176,7 +176,7 @@ impl Regression {
     }
 }
 
-/// Minimum information of a direction kept, as a share of the prior's.
+/// Minimum information of a direction kept, relative to the prior's.
 const LEAST_INFORMATION: f64 = 0.02;
 
 #[cfg(test)]

@@ -49,7 +49,7 @@ fn the_planar_engine_forgets_little_at_a_shared_beginning() {
 }
 
 #[test]
-fn the_best_stops_are_where_they_are_said_to_be() {
+fn the_best_stops_are_at_the_stated_positions() {
     let (setup, task, poses) = setup();
     let model = &Simulated::new(Simulator::planar());
     let rolling = Rolling { setup: &setup, task: &task, model, poses: &poses, steps: STEPS };

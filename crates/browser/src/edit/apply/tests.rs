@@ -100,7 +100,7 @@ fn keys_and_items_are_taken_away() {
 }
 
 #[test]
-fn what_cannot_be_changed_in_place_is_written_anew() {
+fn a_value_that_cannot_be_changed_in_place_is_rewritten() {
     let text = "a: &a [1, 2]\nb: *a\nc: one\n  two\n# end\n";
     let change = |words: &str, value: Json| {
         edit(text, "t", &[Edit { path: path(words), value: Some(value) }]).unwrap()

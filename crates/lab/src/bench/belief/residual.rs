@@ -138,7 +138,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_type_is_told_by_its_geometry() {
+    fn every_type_is_recognised_by_its_geometry() {
         let held = [1e-3, 1e-2];
         let poses = |of: &dyn Fn(f64) -> [f64; 3]| -> Vec<Vector3<f64>> {
             (0..30).map(|k| Vector3::from(of(f64::from(k) / 30.0))).collect()

@@ -117,7 +117,7 @@ mod tests {
     use pushplan_learn::dataset::{LeverConfig, LeverPreset};
 
     #[test]
-    fn who_says_the_truth_has_no_error_and_who_moves_nothing_has_one() {
+    fn the_true_model_has_no_error_and_a_resting_model_has_one() {
         let config = LeverConfig { seed: 3, episodes: 12, preset: LeverPreset::Drive };
         let episodes: Vec<LeverEpisode> =
             (0..12).map(|index| LeverEpisode::draw(&config, index)).collect();

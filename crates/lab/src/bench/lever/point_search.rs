@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_model_itself_shows_is_found_at_its_place_by_one_frame() {
+    fn a_point_drawn_by_the_model_is_found_from_one_frame() {
         let (job, model) = (job(), LeverPrior::default());
         let shown = model.rollout(std::slice::from_ref(&job)).remove(0);
         let elsewhere = LeverUp { place: Place { edge: 3, fraction: 0.5 }, ..job.lever };

@@ -200,7 +200,8 @@ fn plan_level(models: &Models, budget: (Search, Refinement, Verified)) -> PlanLe
     let (decided_rounds, short_list) = if models.is_one() { (0, 0) } else { last };
     PlanLevel {
         name: format!(
-            "{models}: {density} search, {effort} refinement, up to {} verified, {} at a time, {} disturbed",
+            "{models}: {density} search, {effort} refinement, up to {} verified, {} at a time, \
+             {} disturbed",
             verified_at_once * verify_batches,
             verified_at_once,
             replays

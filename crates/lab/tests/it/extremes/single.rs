@@ -19,7 +19,7 @@ use super::{
 /// Number of pushes of the cells that take minutes of simulated time each.
 const FEW: usize = 6;
 
-const NEVER_STOPS: &str = "without friction nothing comes to rest";
+const NEVER_STOPS: &str = "without friction no object stops";
 
 impl Solid {
     fn kind(self) -> Kind {

@@ -49,7 +49,8 @@ pub struct PredictorArgs {
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// Folders of data from `generate` [default: data generated in DIR]
-    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["share", "data_seed", "without_mujoco"])]
+    #[arg(long, value_name = "DIR", num_args = 1..,
+          conflicts_with_all = ["share", "data_seed", "without_mujoco"])]
     data: Vec<PathBuf>,
     /// Number of episodes to generate in DIR, relative to the training of the shipped weights
     #[arg(long, value_name = "X", default_value_t = 1.0)]
@@ -68,11 +69,13 @@ pub struct PredictorArgs {
           value_parser = clap::value_parser!(u64).range(1..))]
     steps: u64,
     /// Number of steps between held-out evaluations and checkpoints
-    #[arg(long, value_name = "N", default_value_t = PredictorSettings::default().descent.evaluate_every,
+    #[arg(long, value_name = "N",
+          default_value_t = PredictorSettings::default().descent.evaluate_every,
           value_parser = clap::value_parser!(u64).range(1..))]
     evaluate_every: u64,
     /// Number of graphs per step, even
-    #[arg(long, value_name = "N", default_value_t = PredictorSettings::default().descent.batch as u32,
+    #[arg(long, value_name = "N",
+          default_value_t = PredictorSettings::default().descent.batch as u32,
           value_parser = clap::value_parser!(u32).range(2..=65_536))]
     batch: u32,
     /// Hidden width, even
@@ -84,7 +87,8 @@ pub struct PredictorArgs {
           value_parser = clap::value_parser!(u32).range(1..=16))]
     propagation: u32,
     /// Maximum learning rate
-    #[arg(long, value_name = "X", default_value_t = PredictorSettings::default().descent.learning_rate)]
+    #[arg(long, value_name = "X",
+          default_value_t = PredictorSettings::default().descent.learning_rate)]
     learning_rate: f64,
     /// Maximum shift of noisy inputs, metres
     #[arg(long, value_name = "X", default_value_t = PredictorSettings::default().noise.shift)]

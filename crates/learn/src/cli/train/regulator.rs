@@ -48,7 +48,8 @@ pub struct RegulatorArgs {
           value_parser = clap::value_parser!(u64).range(1..))]
     steps: u64,
     /// Number of steps between held-out evaluations and checkpoints
-    #[arg(long, value_name = "N", default_value_t = RegulatorSettings::default().descent.evaluate_every,
+    #[arg(long, value_name = "N",
+          default_value_t = RegulatorSettings::default().descent.evaluate_every,
           value_parser = clap::value_parser!(u64).range(1..))]
     evaluate_every: u64,
     /// Width of the hidden state

@@ -96,14 +96,14 @@ pub(super) fn with(mut all: All, more: &All) -> All {
 
 /// Returns the statistics written to `statistics.json`.
 pub(super) fn summary(all: &All) -> BTreeMap<&str, Statistics> {
-    let say = |moments: &Vec<Moments>| Statistics {
+    let statistics = |moments: &Vec<Moments>| Statistics {
         count: moments.iter().map(|one| one.count).collect(),
         mean: moments.iter().map(|one| one.mean).collect(),
         std: moments.iter().map(|one| (one.squares / one.count as f64).sqrt()).collect(),
         min: moments.iter().map(|one| one.min).collect(),
         max: moments.iter().map(|one| one.max).collect(),
     };
-    all.iter().map(|(name, moments)| (name.as_str(), say(moments))).collect()
+    all.iter().map(|(name, moments)| (name.as_str(), statistics(moments))).collect()
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ use super::statistics::{All, moments, summary, with};
 /// interruption.
 pub const A_FILE: u64 = 128;
 
-/// Finished file, as a line of `records.jsonl`.
+/// Finished file; one line of `records.jsonl`.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Finished {

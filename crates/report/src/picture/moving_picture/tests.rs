@@ -61,7 +61,7 @@ fn only_what_moves_is_animated_and_no_script_runs() {
 }
 
 #[test]
-fn the_ending_says_whether_the_goal_is_reached() {
+fn the_ending_shows_whether_the_goal_is_reached() {
     let reached = "reached: final error 0.0 mm";
     assert!(picture_of(&WAYS, true, Vec::new()).contains(reached));
     let toppled = vec![Warning::Toppled { object: "box".to_owned() }];

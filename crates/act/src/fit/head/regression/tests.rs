@@ -30,7 +30,7 @@ fn the_mean_is_that_of_the_numbers_and_one_wild_end_hardly_moves_it() {
 }
 
 #[test]
-fn what_is_left_of_the_prior_is_what_the_normal_equations_say() {
+fn the_remaining_prior_equals_the_normal_equations() {
     let regression = Regression::new(&ends(1e-2), &[0.0; 2], NoiseLaw::Gaussian, 1e-6);
     let solved = regression.solve(0.5).expect("one");
     let directions = regression.directions(&solved, 8);
@@ -49,7 +49,7 @@ fn what_is_left_of_the_prior_is_what_the_normal_equations_say() {
 }
 
 #[test]
-fn what_was_learnt_before_counts_as_if_all_had_been_observed_at_once() {
+fn sequential_updates_equal_one_batch_update() {
     let ends = ends(1e-2);
     // The lower bound of the noise is active in both, so observations are weighted equally.
     let of = |ends: &[Observed]| Regression::new(ends, &[0.0; 2], NoiseLaw::Gaussian, 2e-2);
