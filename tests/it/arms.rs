@@ -19,6 +19,8 @@ use crate::ROOT;
 use crate::mujoco_python::python;
 use crate::program::{run, stderr};
 
+mod files;
+
 /// Six joints: rotation of the base, shoulder, elbow, and a wrist with three joints.
 const URDF: &str = r#"<robot name="six">
   <link name="foot"><collision><geometry><cylinder radius="0.06" length="0.1"/></geometry>
@@ -322,7 +324,7 @@ fn a_damaged_arm_is_a_fault_with_its_place_in_the_urdf() {
         (
             "<sphere radius=\"0.04\"/>",
             "<mesh filename=\"package://no/such.stl\"/>",
-            "there is no mesh",
+            "there is no file package://no/such.stl",
         ),
         ("<sphere radius=\"0.04\"/>", "<sphere radius=\"-1\"/>", "its `radius` must be positive"),
         ("<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 0 0\"/>", "has length zero"),

@@ -26,6 +26,7 @@ __all__ = [
     "ToolLibrary",
     "Trajectory",
     "Verdict",
+    "allow_files_in",
     "design",
     "export_mcap",
     "export_mjcf",
@@ -516,6 +517,7 @@ def design(
     candidates: int = 1000,
     effort: _Effort = "standard",
     seed: int = 0,
+    time_limit: float | None = None,
     threads: int = 0,
 ) -> Design: ...
 def predict(
@@ -554,6 +556,7 @@ def infer(
     threads: int = 0,
 ) -> Belief: ...
 def main(arguments: Sequence[str]) -> int: ...
+def allow_files_in(folder: _Path) -> None: ...
 def import_tool(
     path: _Path,
     *,
