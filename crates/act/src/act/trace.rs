@@ -10,7 +10,7 @@ use pushplan::asset::{Faults, write_atomic};
 use pushplan::geometry::Pose;
 use pushplan::plain_file;
 use pushplan::{
-    outcome::Frame,
+    outcome::{Frame, Warning},
     scene::{State, TableFit, Tool},
     task::{Plan, Task, ToolMotion, Truth},
 };
@@ -61,6 +61,9 @@ pub struct Trace {
     pub learnt: Option<TableFit>,
     /// Reason for the end of the run; `None` while it continues.
     pub end: Option<End>,
+    /// Rule that the objects break according to the last observations, with [`End::RuleBroken`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub broken: Option<Warning>,
 }
 
 /// Kind of file.
@@ -134,6 +137,8 @@ pub enum End {
     BudgetExhausted,
     /// No push brings the object nearer to the goal.
     NoImprovingPush,
+    /// An object breaks a rule of the task according to the observations: see [`Trace::broken`].
+    RuleBroken,
 }
 
 impl Step {
@@ -166,6 +171,15 @@ impl Trace {
             steps: Vec::new(),
             learnt: None,
             end: None,
+            broken: None,
+        }
+    }
+
+    /// Ends the run if a rule is broken.
+    pub(super) fn stop_at(&mut self, broken: Option<Warning>) {
+        if broken.is_some() {
+            self.end = Some(End::RuleBroken);
+            self.broken = broken;
         }
     }
 
