@@ -1,6 +1,6 @@
 //! Opening of user files: plain files only, because a pipe or a device may never end.
 //!
-//! All readers of files that a user names open them here, see the test
+//! Every reader of files that a user names opens them here, see the test
 //! `architecture::plain_files`.
 
 use std::fs::{self, File, Metadata, OpenOptions};

@@ -282,7 +282,7 @@ fn act_error(error: ActError, path: &Path) -> CliError {
             "{message}; rerun the same command with --resume to continue"
         )),
         ActError::Objects { .. } => CliError::File(format!("{}: {message}", path.display())),
-        ActError::World(_) | ActError::Lost { .. } => {
+        ActError::World(_) | ActError::Lost { .. } | ActError::Ambiguous { .. } => {
             CliError::Ended(format!("{message}; the pushes made are in {}", path.display()))
         }
     }
