@@ -34,7 +34,8 @@ use super::{
 /// Tolerance in place of [`SETTLED`] for displacements of more than [`FEW`] groups, which saves a
 /// seventh of the time. Over 4800 sparse and dense trajectories the mean errors of scenes with
 /// fixed joints that touch grow by 0.03 to 0.09 mm, and all other errors by no more than chance.
-/// This tolerance would make errors 3 % larger for few objects, and a quarter larger for velocities.
+/// This tolerance would make errors 3 % larger for few objects, and a quarter larger for
+/// velocities.
 const SETTLED_IN_A_CROWD: f64 = 5e-5;
 const FEW: usize = 3;
 

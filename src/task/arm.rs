@@ -68,8 +68,8 @@ pub trait RobotArm: Any + Debug + Send + Sync {
 }
 
 impl dyn RobotArm {
-    /// Returns why a tool cannot be mounted, and the remedy, if it is higher than the mount is long:
-    /// it would be inside the arm.
+    /// Returns the reason against a tool and the remedy, if the tool is higher than the mount is
+    /// long: it would be inside the arm.
     pub fn refuses(&self, tool: &Tool) -> Option<(String, String)> {
         let (height, length) = (tool.height(), self.mount_length());
         // A millionth of a metre is a rounding of files.

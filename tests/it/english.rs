@@ -28,17 +28,17 @@ const PHRASES: [Rule; 8] = [
             "What/what is/was/are/were/has/had/have/may/can/must/does/did",
             "What/what it/they/the/a/an/its/stands/lies/moves/else",
         ],
-        36,
+        11,
     ),
     (
         "a free relative clause after a preposition",
         &["of/for/to/from/with/in/by/on/at/after/before/than/beside/besides what"],
-        15,
+        0,
     ),
     (
         "speaking code",
         &["say/says/said/tell/tells/told/hear/hears/heard", "speak/speaks of", "knows of"],
-        30,
+        11,
     ),
     (
         "`as` for because",
@@ -46,15 +46,15 @@ const PHRASES: [Rule; 8] = [
             ", as it/they/that/there/the/a/an/what/no/its/this/these/those/all/only/one/most",
             ", as nothing/nobody",
         ],
-        6,
+        0,
     ),
     (
         "or else, go on",
         &["^Else/else", "./;/:/, Else/else", "or else", "go/goes/going/went/gone on"],
-        3,
+        0,
     ),
     ("a person without a name", &["nobody/somebody/anybody/whoever/everybody"], 2),
-    ("a noun replaced by that or those", &["that/those of"], 18),
+    ("a noun replaced by that or those", &["that/those of"], 3),
     (
         "a literal translation",
         &[
@@ -66,7 +66,7 @@ const PHRASES: [Rule; 8] = [
             "besides",
             "is/are/was/were to *",
         ],
-        26,
+        21,
     ),
 ];
 
@@ -74,7 +74,7 @@ const PHRASES: [Rule; 8] = [
 const LONG_SENTENCES: usize = 0;
 
 /// Maximum number of lines over 100 columns that could be broken.
-const LONG_LINES: usize = 161;
+const LONG_LINES: usize = 0;
 
 /// Files in which people read sentences.
 const EXTENSIONS: [&str; 4] = ["rs", "md", "py", "yaml"];
@@ -151,7 +151,7 @@ fn lines_have_at_most_100_columns() {
 fn breakable(path: &str, line: &str) -> bool {
     let text = line.trim_start();
     let text = text.strip_prefix("/// ").unwrap_or(text);
-    let data = ["|", "- {", "<", "@\""].iter().any(|start| text.starts_with(start));
+    let data = ["|", "- {", "- [", "<", "@\""].iter().any(|start| text.starts_with(start));
     let whole = ["http", "type: ignore"].iter().any(|part| text.contains(part));
     // Strings of tests are files and their expected messages; rustfmt breaks all other code.
     let test = path.contains("tests/") || path.ends_with("tests.rs");

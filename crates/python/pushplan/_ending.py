@@ -33,7 +33,10 @@ def until_signal(serve: Callable[[], None], stop: Callable[[], None]) -> None:
 
     # A handler that only appends cannot wait for a lock of the interrupted code.
     handled = [signal.SIGINT, signal.SIGTERM]
-    before = [signal.signal(number, lambda number, _: received.append(number)) for number in handled]
+    def note(number: int, _: object) -> None:
+        received.append(number)
+
+    before = [signal.signal(number, note) for number in handled]
     server = threading.Thread(target=guarded, daemon=True)
     server.start()
     while server.is_alive() and not received:
