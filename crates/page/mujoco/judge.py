@@ -1,5 +1,38 @@
 
 
+# Time steps. Contacts of an exported scene may be unstable at its time step, which looks like a failure.
+
+NOT_FINITE = "not finite"
+FINEST = 16  # largest number by which a time step is divided
+
+
+class Failed(Exception):
+    """Failure of the plan before its end."""
+
+
+def check_finite(data):
+    """Raises `Failed` if MuJoCo found no finite state and has reset the scene."""
+    kinds = mujoco.mjtWarning
+    if any(data.warning[kind].number for kind in (kinds.mjWARN_BADQPOS, kinds.mjWARN_BADQVEL, kinds.mjWARN_BADQACC)):
+        raise Failed(NOT_FINITE)
+
+
+def decided(play):
+    """Returns the last result of `play`, which receives the divisor of the time step. The first success is accepted.
+    A failure must be confirmed with half the time step; if that replay succeeds, a third one decides. Replays without
+    a finite state decide nothing. `runs` lists all replays."""
+    runs, votes, finer = [], [], 1
+    while True:
+        result = play(finer)
+        runs.append({"timestep": result["timestep"], "failure": result["failure"]})
+        if result["failure"] != NOT_FINITE:
+            votes.append(result["reached"])
+        confirmed = len(votes) > 1 and votes[-1] == votes[-2]
+        finer *= 2
+        if votes[:1] == [True] or confirmed or len(votes) == 3 or finer > FINEST:
+            return {**result, "runs": runs}
+
+
 # Checks of goals, which the scene holds as JSON. A check is a quantity with limits, or a minimum number of
 # goals of a group.
 

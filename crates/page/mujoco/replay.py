@@ -10,8 +10,9 @@ plan goes to stdout, a table for several to stderr; the exit code is 0 if all of
 
 A plan works if all objects are at rest at the end and the goal object is within the tolerance of position and,
 if the goal has one, heading, or has fallen over the right edge. Meanwhile no other object may topple, the
-tool may not be set down on an object, and no object may enter an obstacle by 2 mm. An arm in the scene is
-driven by servos alone along its joint trajectory, and may not collide. Lengths are in metres, angles in radians.
+tool may not be set down on an object, no object may enter an obstacle by 2 mm, and none may fall off the table
+unless the task allows it. An arm in the scene is driven by servos alone along its joint trajectory, and may not
+collide. A failure counts only if half the time step confirms it. Lengths are in metres, angles in radians.
 """
 
 import argparse
@@ -21,6 +22,7 @@ import multiprocessing
 import re
 import statistics
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 
 import mujoco
@@ -39,10 +41,6 @@ SOLIDS = {
     mujoco.mjtGeom.mjGEOM_CYLINDER: "cylinder",
     mujoco.mjtGeom.mjGEOM_MESH: "prism",
 }
-
-
-class Failed(Exception):
-    """Failure of the plan before its end."""
 
 
 class Arm:
@@ -80,10 +78,11 @@ class Arm:
 class Replay:
     """One scene and its replay."""
 
-    def __init__(self, model):
+    def __init__(self, model, finer=1):
         self.model = model
         self.data = mujoco.MjData(self.model)
-        self.step = self.model.opt.timestep
+        self.step = self.model.opt.timestep / finer
+        self.model.opt.timestep = self.step
         bodies = [self.model.body(k) for k in range(self.model.nbody)]
         self.objects = {b.name: b.id for b in bodies if b.name.startswith("object/")}
         self.bodies = list(self.objects.values())
@@ -223,14 +222,15 @@ class Replay:
         contact = self.data.contact
         depth = contact.includemargin - contact.dist
         np.maximum.at(self.deepest, self.kind[contact.geom].max(axis=1), depth)
-        if self.data.warning[mujoco.mjtWarning.mjWARN_BADQACC].number:
-            raise Failed("not finite")
+        check_finite(self.data)
         if self.deepest[KINDS.index("obstacle")] > JAMMED:
             raise Failed("jams")
         if self.deepest[KINDS.index("arm")] > JAMMED:
             raise Failed("the arm collides")
         if self.upright and self.data.xmat[self.upright, 8].min() < TOPPLED:
             raise Failed("topples")
+        if np.any(self.data.xpos[self.upright, 2] < self.heights[self.upright] - FALLEN):
+            raise Failed("falls off the table")
 
     def is_resting(self, limit):
         velocity = np.zeros(6)
@@ -263,7 +263,12 @@ class Replay:
 
 def replay(path):
     """Replays the scene of a file, and returns its results for JSON."""
-    scene = Replay(mujoco.MjModel.from_xml_path(str(path)))
+    return decided(lambda finer: replay_once(path, finer))
+
+
+def replay_once(path, finer):
+    """Replays the scene of a file with its time step divided by `finer`."""
+    scene = Replay(mujoco.MjModel.from_xml_path(str(path)), finer)
     failure = None
     try:
         scene.run()
@@ -282,6 +287,8 @@ def replay(path):
         "plan": path.stem,
         "reached": failure is None,
         "failure": failure,
+        "mujoco": mujoco.__version__,
+        "timestep": scene.step,
         "error": error,
         "heading_error": heading_error,
         # Difference between the ends of this replay and of pushplan's own in 3-D.
@@ -337,8 +344,9 @@ def main():
         ours = (scene for scene in path.glob("*.xml") if "lever.py" not in scene.read_text())
         scenes += sorted(ours) if path.is_dir() else [path]
     results = []
-    with multiprocessing.Pool(arguments.jobs) as pool:
-        for result in pool.imap(replay, scenes):
+    alone = len(scenes) == 1 or arguments.jobs == 1
+    with nullcontext() if alone else multiprocessing.Pool(arguments.jobs) as pool:
+        for result in (pool.imap if pool else map)(replay, scenes):
             print(json.dumps(result), flush=True)
             results.append(result)
     if len(results) > 1:
