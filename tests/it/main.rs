@@ -62,6 +62,7 @@ mod recorded_pushes;
 mod regulator;
 mod run_learning;
 mod seams;
+mod second_opinion;
 mod several_goals;
 #[allow(dead_code)]
 mod sharding;

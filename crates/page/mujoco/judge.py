@@ -3,6 +3,7 @@
 # Time steps. Contacts of an exported scene may be unstable at its time step, which looks like a failure.
 
 NOT_FINITE = "not finite"
+TOO_FAST = "moves too fast"
 FINEST = 16  # largest number by which a time step is divided
 
 
@@ -19,13 +20,13 @@ def check_finite(data):
 
 def decided(play):
     """Returns the last result of `play`, which receives the divisor of the time step. The first success is accepted.
-    A failure must be confirmed with half the time step; if that replay succeeds, a third one decides. Replays without
-    a finite state decide nothing. `runs` lists all replays."""
+    A failure must be confirmed with half the time step; if that replay succeeds, a third one decides. An unstable
+    replay decides nothing. `runs` lists all replays."""
     runs, votes, finer = [], [], 1
     while True:
         result = play(finer)
         runs.append({"timestep": result["timestep"], "failure": result["failure"]})
-        if result["failure"] != NOT_FINITE:
+        if result["failure"] not in (NOT_FINITE, TOO_FAST):
             votes.append(result["reached"])
         confirmed = len(votes) > 1 and votes[-1] == votes[-2]
         finer *= 2

@@ -33,6 +33,7 @@ JAMMED = 2e-3  # penetration depth above which an object or an arm is jammed, m
 LAID_ASIDE = 2.0  # height of unused tools above the table, m
 SET_DOWN = 1e-4  # overlap that still counts as touching when the tool comes down, m
 TOPPLED = math.cos(math.radians(10))  # cosine of the inclination above which an object has toppled
+UNSTABLE = (3.0, 0.3)  # factor and addend, m/s, of the tool's speed; only unstable contacts make objects faster
 FALLEN = 0.1  # drop below its start height beyond which an object has left the table, m
 KINDS = ["object", "obstacle", "tool", "table", "region", "arm"]
 BASE = "obstacle/robot base"
@@ -107,6 +108,13 @@ class Replay:
         self.texts = texts(self.model)
         self.loose = [b for name, b in self.objects.items() if f"may fall of {name}" in self.numbers]
         self.upright = [body for body in self.bodies if body not in self.loose]
+        free = [
+            joint.dofadr[0] for joint in joints
+            if joint.type[0] == mujoco.mjtJoint.mjJNT_FREE and joint.bodyid[0] not in self.loose
+        ]
+        self.free = np.array(free, dtype=int)[:, None] + np.arange(3)
+        factor, above = UNSTABLE
+        self.fastest = above + factor * max(map(speed_of, self.pushes), default=0.0)
         mujoco.mj_kinematics(self.model, self.data)
         self.heights = self.data.xpos[:, 2].copy()
 
@@ -223,6 +231,10 @@ class Replay:
         depth = contact.includemargin - contact.dist
         np.maximum.at(self.deepest, self.kind[contact.geom].max(axis=1), depth)
         check_finite(self.data)
+        velocities = self.data.qvel[self.free]
+        velocities[:, 2] = np.maximum(velocities[:, 2], 0.0)  # falls are fast
+        if np.any(np.linalg.norm(velocities, axis=1) > self.fastest):
+            raise Failed(TOO_FAST)
         if self.deepest[KINDS.index("obstacle")] > JAMMED:
             raise Failed("jams")
         if self.deepest[KINDS.index("arm")] > JAMMED:
@@ -259,6 +271,12 @@ class Replay:
         """Returns x, y and heading of a body."""
         turn = self.data.xmat[body]
         return [*self.data.xpos[body][:2].tolist(), math.atan2(turn[3], turn[0])]
+
+
+def speed_of(push):
+    """Returns the speed of a push; of a rotating one, at a distance of one metre."""
+    turn = abs(push[7] - push[6]) if len(push) > 6 else 0.0
+    return (math.dist(push[0:2], push[2:4]) + turn) / push[4]
 
 
 def replay(path):
