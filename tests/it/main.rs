@@ -64,6 +64,7 @@ mod run_joints;
 mod run_learning;
 mod run_rules;
 mod seams;
+mod second_opinion;
 mod several_goals;
 #[allow(dead_code)]
 mod sharding;

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use pushplan::asset::PlanFile;
 use pushplan::effect::EffectModel;
 use pushplan::{
-    outcome::{Record, Trajectory, Verdict},
+    outcome::{Record, Trajectory},
     scene::ModelSpec,
     task::Job,
 };
-use pushplan_report::{PageView, Recipe, verdict_page};
+use pushplan_report::{Judged, PageView, Recipe, verdict_page};
 
 use super::{error::CliError, model, output, session::Session};
 
@@ -18,11 +18,11 @@ use super::{error::CliError, model, output, session::Session};
 ///
 /// # Errors
 /// Returns an error if the page cannot be written.
-pub fn write(
+pub fn write<'a>(
     out: &Path,
     session: &Session,
     file: &PlanFile,
-    verdict: &Verdict,
+    judged: impl Into<Judged<'a>>,
     (recipe, view): (Recipe, PageView),
 ) -> Result<PathBuf, CliError> {
     let predicted = file.model.as_ref().and_then(|spec| {
@@ -30,8 +30,13 @@ pub fn write(
         let warn = |error| session.warn(&format!("the page shows no prediction: {error}"));
         predicted.map_err(warn).ok()?
     });
-    let page = verdict_page(file, predicted.as_ref(), verdict, recipe, view);
-    output::write(out, &format!("{}.verify.html", file.task.name), page.as_bytes())
+    let page = verdict_page(file, predicted.as_ref(), judged, recipe, view);
+    output::write(out, &name(file), page.as_bytes())
+}
+
+/// Returns the file name of the page.
+pub fn name(file: &PlanFile) -> String {
+    format!("{}.verify.html", file.task.name)
 }
 
 /// Predicts a plan with a model; returns `None` if the model declines it.

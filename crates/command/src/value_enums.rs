@@ -43,6 +43,21 @@ pub static ENGINES: [(&str, Engine, &str); 3] = [
     ),
 ];
 
+/// Physics that judges a plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Judge {
+    /// Engines of pushplan.
+    BuiltIn,
+    /// MuJoCo, beside the engines of pushplan.
+    Mujoco,
+}
+
+/// Physics that `verify` can ask.
+pub static JUDGES: [(&str, Judge, &str); 2] = [
+    ("built-in", Judge::BuiltIn, "2-D and 3-D engine of pushplan"),
+    ("mujoco", Judge::Mujoco, "MuJoCo of a Python, as a second opinion"),
+];
+
 /// Rules for choosing exploratory pushes.
 pub static PROBES: [(&str, ProbeRule, &str); 5] = [
     ("task", ProbeRule::Task, "Distinguish the samples in which different plans work"),

@@ -74,8 +74,9 @@ const FOOT: f64 = 1e-3;
 const TABLE_DEPTH: f64 = 0.5;
 
 /// Clearance of a cuboid or prism above the table, metres. It touches the table only if it tips
-/// beyond its feet. A cylinder never touches it, because MuJoCo's contact of cylinder and plane
-/// topples standing cylinders.
+/// beyond its feet. On a finite table, so does a cylinder, which the edge may have to support. On an
+/// unlimited one it never touches, because MuJoCo's contact of cylinder and plane topples standing
+/// cylinders.
 const CLEAR: f64 = 5e-4;
 
 /// Returns the scene of `file`'s task with its tool and the plan's pushes, as MJCF. For a plan with
@@ -159,7 +160,7 @@ fn written(
     xml.open("worldbody", &[]);
     let friction = numbers(&[scene.table_friction]);
     let mut table = vec![("name", "table".into())];
-    match scene.brink() {
+    match scene.table_top {
         None => table.extend([("type", "plane".into()), ("size", "0 0 1".into())]),
         Some(TableTop { size: [x, y], middle }) => table.extend([
             ("type", "box".into()),
@@ -278,7 +279,7 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
         },
         Some((_, link)) => hinges::joint(xml, scene, node.object, link),
     }
-    let (shape, rise) = clear(object);
+    let (shape, rise) = clear(scene, object);
     if let Shape::Prism { base, height } = &shape {
         mesh::inertial(xml, base, *height, rise, object.mass);
     }
@@ -314,7 +315,7 @@ pub(super) fn feet(scene: &Scene, index: usize) -> Feet {
 
 /// Returns the part of an object that is clear of the table, and the upward shift of its middle,
 /// metres.
-fn clear(object: &Object) -> (Shape, f64) {
+fn clear(scene: &Scene, object: &Object) -> (Shape, f64) {
     match object.shape {
         above if object.is_raised() => (above, 0.0),
         Shape::Cuboid { size: [x, y, z] } => {
@@ -323,6 +324,9 @@ fn clear(object: &Object) -> (Shape, f64) {
         Shape::Prism { base, height } => {
             (Shape::Prism { base, height: height - CLEAR }, CLEAR / 2.0)
         }
+        Shape::Cylinder { radius, height } if scene.table_top.is_some() => {
+            (Shape::Cylinder { radius, height: height - CLEAR }, CLEAR / 2.0)
+        }
         round => (round, 0.0),
     }
 }
@@ -330,7 +334,7 @@ fn clear(object: &Object) -> (Shape, f64) {
 /// Returns the solids of objects and tools with their names.
 fn solids(scene: &Scene, tools: &[Taken]) -> Vec<(String, Shape)> {
     let objects = scene.objects.iter();
-    let objects = objects.map(|object| (object_name(object), clear(object).0));
+    let objects = objects.map(|object| (object_name(object), clear(scene, object).0));
     let tools = tools.iter().flat_map(|Taken { motion, prefix, .. }| {
         let tool = seamless(motion.tool.outline()).into_iter();
         tool.map(move |(name, shape, _)| (format!("{prefix}{name}"), shape))

@@ -40,7 +40,8 @@ pub(super) fn pairs(scene: &Scene, tools: &[(&str, &Tool)]) -> Vec<Pair> {
             pairs.push(Pair { geoms: [geom, with], friction, margin: 0.0 });
         };
         let own = || format!("object/{}", object.name);
-        if !object.shape.is_cylinder() && scene.mount(index).is_none() {
+        let touches = !object.shape.is_cylinder() || scene.table_top.is_some();
+        if touches && scene.mount(index).is_none() {
             add(own(), "table".into(), Surface::Table, scene.table_friction);
         }
         let stands = scene.mount(index).is_none();

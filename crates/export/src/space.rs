@@ -93,6 +93,9 @@ fn written(
     numeric(&mut xml, &format!("levered plate/{}", stage.plates[watched].name), &[1.0]);
     if let Some(task) = task {
         checks(&mut xml, task);
+        for object in task.scene.objects.iter().filter(|object| object.may_fall) {
+            numeric(&mut xml, &format!("may fall of plate/{}", object.name), &[1.0]);
+        }
     }
     xml.close();
     xml.open("asset", &[]);
@@ -148,8 +151,8 @@ fn settings(xml: &mut Xml) {
 /// Writes the table and the obstacles, and returns their solids.
 fn fixed(xml: &mut Xml, stage: &Stage) -> Vec<Meets> {
     let mut others: Vec<Meets> = vec![("table".to_owned(), stage.table_friction, None)];
-    let brink = stage.scene.as_ref().and_then(|(scene, _)| scene.brink());
-    let (size, middle) = brink.map_or(([4.0; 2], Vector::zeros()), |top| (top.size, top.middle));
+    let top = stage.scene.as_ref().and_then(|(scene, _)| scene.table_top);
+    let (size, middle) = top.map_or(([4.0; 2], Vector::zeros()), |top| (top.size, top.middle));
     let position = Vector3::new(middle.x, middle.y, -0.25);
     let lying = Pose3 { position, ..Pose3::default() };
     cuboid(xml, "table", [size[0], size[1], 0.5], &lying);

@@ -1,5 +1,40 @@
 
 
+# Time steps. Contacts of an exported scene may be unstable at its time step, which looks like a
+# failure.
+
+NOT_FINITE = "not finite"
+TOO_FAST = "moves too fast"
+FINEST = 16  # largest number by which a time step is divided
+
+
+class Failed(Exception):
+    """Failure of the plan before its end."""
+
+
+def check_finite(data):
+    """Raises `Failed` if MuJoCo found no finite state and has reset the scene."""
+    kinds = mujoco.mjtWarning
+    bad = kinds.mjWARN_BADQPOS, kinds.mjWARN_BADQVEL, kinds.mjWARN_BADQACC
+    if any(data.warning[kind].number for kind in bad):
+        raise Failed(NOT_FINITE)
+
+
+def decided(play):
+    """Returns the first stable result of `play`, which receives the divisor of the time step.
+
+    An unstable replay is repeated with half the time step, and the last one counts in any case.
+    `runs` lists all replays.
+    """
+    runs, finer = [], 1
+    while True:
+        result = play(finer)
+        runs.append({"timestep": result["timestep"], "failure": result["failure"]})
+        finer *= 2
+        if result["failure"] not in (NOT_FINITE, TOO_FAST) or finer > FINEST:
+            return {**result, "runs": runs}
+
+
 # Checks of goals, which the scene holds as JSON. A check is a quantity with limits, or a minimum
 # number of goals of a group.
 

@@ -5,10 +5,12 @@
     python3 lever.py --against ours.jsonl --played results.jsonl
 
 Needs Python 3.11 and `pip install mujoco`. Prints one line of JSON for each scene: `lift`, the
-poses of the levered plate at equal intervals of the last rotation; `rest`, its final pose; and, for
-a plan with a goal, `reached`. A pose is x, y, z and the quaternion w, x, y, z. With `--against`,
-the output of `pushplan-learn generate --format mjcf` for the same scenes, it finally prints the
-differences to stderr. `--played` reads lines written earlier.
+poses of the levered plate at equal intervals of the last rotation; `rest`, its final pose;
+`reached`, whether the goals of the scene are met; and `failure`, the reason if they are not, if no
+state is finite, or if an object falls that may not. An unstable replay is repeated with half the
+time step. A pose is x, y, z and the quaternion w, x, y, z. With `--against`, the output of
+`pushplan-learn generate --format mjcf` for the same scenes, it finally prints the differences to
+stderr. `--played` reads lines written earlier.
 """
 
 import argparse
@@ -24,6 +26,7 @@ import numpy as np
 REST = 1e-3  # speed below which a body is at rest, m/s
 STILL = 0.1  # duration at rest, seconds
 PATIENCE = 4.0  # maximum waiting time, seconds
+FALLEN = -0.1  # height below which an object has left the table, m
 
 
 def turned(a, b):
@@ -71,8 +74,9 @@ class Hand:
 class Scene:
     """One scene and its replay."""
 
-    def __init__(self, path):
+    def __init__(self, path, finer=1):
         self.model = mujoco.MjModel.from_xml_path(path)
+        self.model.opt.timestep /= finer
         self.data = mujoco.MjData(self.model)
         self.numbers = {}
         for k in range(self.model.nnumeric):
@@ -82,6 +86,9 @@ class Scene:
         self.plate = self.model.body(plate).id
         self.plates = [
             k for k in range(self.model.nbody) if self.model.body(k).name.startswith("plate/")
+        ]
+        self.kept = [
+            k for k in self.plates if f"may fall of {self.model.body(k).name}" not in self.numbers
         ]
         steps = [n.split() for n in self.numbers if n.startswith(("lever ", "pushes "))]
         self.steps = sorted((int(k), kind) for kind, k in steps)
@@ -134,7 +141,10 @@ class Scene:
             if self.hand:
                 self.hand.go(self.way, began + k * dt, dt)
             mujoco.mj_step(self.model, self.data)
+        check_finite(self.data)
         mujoco.mj_forward(self.model, self.data)
+        if np.any(self.data.xpos[self.kept, 2] < FALLEN):
+            raise Failed("falls off the table")
         self.time = end
 
     def rest(self):
@@ -198,16 +208,19 @@ class Scene:
                 self.rest()
 
     def run(self):
-        lift = []
-        for k, kind in self.steps:
-            if kind == "lever":
-                lift = self.lever(k)
-            else:
-                self.pushes(k)
-        found = {"lift": lift, "rest": self.pose()}
-        if "goals" in self.texts:
-            found["reached"] = all_judged(self, self.texts)[0]
-        return found
+        lift, failure = [], None
+        try:
+            for k, kind in self.steps:
+                if kind == "lever":
+                    lift = self.lever(k)
+                else:
+                    self.pushes(k)
+        except Failed as failed:
+            failure = str(failed)
+        if failure is None and "goals" in self.texts and not all_judged(self, self.texts)[0]:
+            failure = "misses the goal"
+        found = {"lift": lift, "rest": self.pose(), "reached": failure is None, "failure": failure}
+        return {**found, "mujoco": mujoco.__version__, "timestep": self.step}
 
     def seen(self, name, frame=None):
         """Returns x, y and heading of an object in the world, or in the frame of another object."""
@@ -249,12 +262,11 @@ def main():
         with open(arguments.played) as lines:
             played = [json.loads(line) for line in lines]
     for path in arguments.scenes:
-        scene = Scene(path)
-        played.append({"scene": path, **scene.run()})
+        played.append({"scene": path, **decided(lambda finer: Scene(path, finer).run())})
         print(json.dumps(played[-1]), flush=True)
     differences = []
     for found in played:
-        if other := ours.get(os.path.basename(found["scene"])):
+        if (other := ours.get(os.path.basename(found["scene"]))) and found["lift"]:
             end, rest = far(found["lift"][-1], other["lift"][-1]), far(found["rest"], other["rest"])
             squares = [far(*pair)[0] ** 2 for pair in zip(found["lift"], other["lift"])]
             differences.append([math.sqrt(statistics.mean(squares)), *end, rest[0]])

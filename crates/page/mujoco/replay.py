@@ -10,9 +10,10 @@ plan goes to stdout, a table for several to stderr; the exit code is 0 if all of
 
 A plan works if all objects are at rest at the end and the goal object is within the tolerance of
 position and, if the goal has one, heading, or has fallen over the right edge. Meanwhile no other
-object may topple, the tool may not be set down on an object, and no object may enter an obstacle by
-2 mm. An arm in the scene is driven by servos alone along its joint trajectory, and may not collide.
-Lengths are in metres, angles in radians.
+object may topple, the tool may not be set down on an object, no object may enter an obstacle by
+2 mm, and none may fall off the table unless the task allows it. An arm in the scene is driven by
+servos alone along its joint trajectory, and may not collide. An unstable replay is repeated with
+half the time step. Lengths are in metres, angles in radians.
 """
 
 import argparse
@@ -22,6 +23,7 @@ import multiprocessing
 import re
 import statistics
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 
 import mujoco
@@ -32,6 +34,8 @@ JAMMED = 2e-3  # penetration depth above which an object or an arm is jammed, m
 LAID_ASIDE = 2.0  # height of unused tools above the table, m
 SET_DOWN = 1e-4  # overlap that still counts as touching when the tool comes down, m
 TOPPLED = math.cos(math.radians(10))  # cosine of the inclination above which an object has toppled
+# Factor and addend, m/s, of the tool's speed. Only unstable contacts make objects faster.
+UNSTABLE = (3.0, 0.3)
 FALLEN = 0.1  # drop below its start height beyond which an object has left the table, m
 KINDS = ["object", "obstacle", "tool", "table", "region", "arm"]
 BASE = "obstacle/robot base"
@@ -40,10 +44,6 @@ SOLIDS = {
     mujoco.mjtGeom.mjGEOM_CYLINDER: "cylinder",
     mujoco.mjtGeom.mjGEOM_MESH: "prism",
 }
-
-
-class Failed(Exception):
-    """Failure of the plan before its end."""
 
 
 class Arm:
@@ -81,10 +81,11 @@ class Arm:
 class Replay:
     """One scene and its replay."""
 
-    def __init__(self, model):
+    def __init__(self, model, finer=1):
         self.model = model
         self.data = mujoco.MjData(self.model)
-        self.step = self.model.opt.timestep
+        self.step = self.model.opt.timestep / finer
+        self.model.opt.timestep = self.step
         bodies = [self.model.body(k) for k in range(self.model.nbody)]
         self.objects = {b.name: b.id for b in bodies if b.name.startswith("object/")}
         self.bodies = list(self.objects.values())
@@ -111,6 +112,13 @@ class Replay:
             b for name, b in self.objects.items() if f"may fall of {name}" in self.numbers
         ]
         self.upright = [body for body in self.bodies if body not in self.loose]
+        free = [
+            joint.dofadr[0] for joint in joints
+            if joint.type[0] == mujoco.mjtJoint.mjJNT_FREE and joint.bodyid[0] not in self.loose
+        ]
+        self.free = np.array(free, dtype=int)[:, None] + np.arange(3)
+        factor, above = UNSTABLE
+        self.fastest = above + factor * max(map(speed_of, self.pushes), default=0.0)
         mujoco.mj_kinematics(self.model, self.data)
         self.heights = self.data.xpos[:, 2].copy()
 
@@ -228,14 +236,19 @@ class Replay:
         contact = self.data.contact
         depth = contact.includemargin - contact.dist
         np.maximum.at(self.deepest, self.kind[contact.geom].max(axis=1), depth)
-        if self.data.warning[mujoco.mjtWarning.mjWARN_BADQACC].number:
-            raise Failed("not finite")
+        check_finite(self.data)
+        velocities = self.data.qvel[self.free]
+        velocities[:, 2] = np.maximum(velocities[:, 2], 0.0)  # falls are fast
+        if np.any(np.linalg.norm(velocities, axis=1) > self.fastest):
+            raise Failed(TOO_FAST)
         if self.deepest[KINDS.index("obstacle")] > JAMMED:
             raise Failed("jams")
         if self.deepest[KINDS.index("arm")] > JAMMED:
             raise Failed("the arm collides")
         if self.upright and self.data.xmat[self.upright, 8].min() < TOPPLED:
             raise Failed("topples")
+        if np.any(self.data.xpos[self.upright, 2] < self.heights[self.upright] - FALLEN):
+            raise Failed("falls off the table")
 
     def is_resting(self, limit):
         velocity = np.zeros(6)
@@ -266,9 +279,20 @@ class Replay:
         return [*self.data.xpos[body][:2].tolist(), math.atan2(turn[3], turn[0])]
 
 
+def speed_of(push):
+    """Returns the speed of a push; of a rotating one, at a distance of one metre."""
+    turn = abs(push[7] - push[6]) if len(push) > 6 else 0.0
+    return (math.dist(push[0:2], push[2:4]) + turn) / push[4]
+
+
 def replay(path):
     """Replays the scene of a file, and returns its results for JSON."""
-    scene = Replay(mujoco.MjModel.from_xml_path(str(path)))
+    return decided(lambda finer: replay_once(path, finer))
+
+
+def replay_once(path, finer):
+    """Replays the scene of a file with its time step divided by `finer`."""
+    scene = Replay(mujoco.MjModel.from_xml_path(str(path)), finer)
     failure = None
     try:
         scene.run()
@@ -287,6 +311,8 @@ def replay(path):
         "plan": path.stem,
         "reached": failure is None,
         "failure": failure,
+        "mujoco": mujoco.__version__,
+        "timestep": scene.step,
         "error": error,
         "heading_error": heading_error,
         # Difference between the ends of this replay and of pushplan's own in 3-D.
@@ -342,8 +368,9 @@ def main():
         ours = (scene for scene in path.glob("*.xml") if "lever.py" not in scene.read_text())
         scenes += sorted(ours) if path.is_dir() else [path]
     results = []
-    with multiprocessing.Pool(arguments.jobs) as pool:
-        for result in pool.imap(replay, scenes):
+    alone = len(scenes) == 1 or arguments.jobs == 1
+    with nullcontext() if alone else multiprocessing.Pool(arguments.jobs) as pool:
+        for result in (pool.imap if pool else map)(replay, scenes):
             print(json.dumps(result), flush=True)
             results.append(result)
     if len(results) > 1:

@@ -26,6 +26,7 @@ mod poses;
 mod prediction;
 mod recorded;
 mod run;
+mod second_opinion;
 mod solution;
 mod solved;
 mod svg;
@@ -55,6 +56,7 @@ pub use recorded::{
     trials_line,
 };
 pub use run::run_document;
+pub use second_opinion::{Judged, SecondOpinion, TimedReplay};
 pub use solution::solution_document;
 pub use solved::{SOLVED_COLUMNS, error_chart, flat, progress_note, solved_cells, solved_document};
 pub use table::{Align, Column, NONE, Table};

@@ -14,13 +14,16 @@ use super::document::{Document, Section};
 use super::number::{degrees, millimetres};
 use super::plan_text::{engine_name, goal_line, outcome_table, plan_line, plan_sections};
 use super::recorded::percent;
+use super::second_opinion::Judged;
 
 /// Returns a report on a replayed plan.
-pub fn verdict_document(file: &PlanFile, verdict: &Verdict) -> Document {
+pub fn verdict_document<'a>(file: &PlanFile, judged: impl Into<Judged<'a>>) -> Document {
+    let Judged { verdict, second } = judged.into();
     let predicted = file.model.as_ref().zip(file.predicted.as_ref());
     let predicted = predicted.map(|(model, outcome)| (model.to_string(), outcome, None));
-    let outcomes = outcome_section(&file.task, predicted, Some(verdict));
-    Document {
+    let mut outcomes = outcome_section(&file.task, predicted, Some(verdict));
+    outcomes.lines.extend(second.map(|second| format!("second opinion: {}", second.line())));
+    let mut document = Document {
         title: format!("{}: {}", file.task.name, plan_line(&file.plan)),
         notes: vec![format!("goal: {}", goal_line(&file.task))],
         sections: plan_sections(&file.plan).into_iter().chain([outcomes]).collect(),
@@ -30,7 +33,11 @@ pub fn verdict_document(file: &PlanFile, verdict: &Verdict) -> Document {
             "moved": bystanders::json(&bystanders(&file.task, None, Some(verdict))),
         }),
         ..Document::default()
+    };
+    if let Some(second) = second {
+        document.json["second_opinion"] = json!(second);
     }
+    document
 }
 
 /// Returns the warnings of the nominal replays, each once with the engines that report it.

@@ -137,6 +137,55 @@ fn a_tool_set_down_on_an_object_and_a_jam_fail() {
     assert_eq!(results[1]["failure"], "set down on an object");
 }
 
+/// Closed form: an object stays as long as its centre of mass is above the table.
+#[test]
+fn objects_fall_over_the_edge_of_a_finite_table() {
+    let Some(python) = python() else { return };
+    let cuboid = "{cuboid: {size: [0.08, 0.08, 0.06]}}";
+    let cylinder = "{cylinder: {radius: 0.04, height: 0.06}}";
+    let mut texts = Vec::new();
+    for (name, shape) in [("box", cuboid), ("can", cylinder)] {
+        // The table ends 20 cm ahead of the object's start.
+        let task = task("")
+            .replace(cuboid, shape)
+            .replace("{friction: 0.5}", "{friction: 0.5, size: [0.6, 0.8], position: [0.4, 0.0]}")
+            .replace("[0.80, 0.0], tolerance: 0.02", "[0.66, 0.0], tolerance: 0.06");
+        for (kind, length) in [("stays", 0.19), ("falls", 0.21)] {
+            let start = [START - 0.06, 0.0];
+            let file = plan(&task, BAR, PushForm::Placed, &[(start, 0.0, length, 0.06)]);
+            let text = mjcf(&file).unwrap();
+            let table = "name=\"table\" type=\"box\" size=\"0.3 0.4 0.25\" pos=\"0.4 0 -0.25\"";
+            assert!(text.contains(table), "{text}");
+            texts.push((format!("{name}-{kind}"), text));
+        }
+    }
+    let texts: Vec<(&str, String)> =
+        texts.iter().map(|(name, text)| (name.as_str(), text.clone())).collect();
+    for result in replay(&python, &texts) {
+        let falls = result["plan"].as_str().is_some_and(|name| name.ends_with("falls"));
+        let lost = ["topples", "falls off the table"].map(Json::from).contains(&result["failure"]);
+        assert_eq!((result["reached"] == true, lost), (!falls, falls), "{result:#}");
+    }
+}
+
+#[test]
+fn an_unstable_time_step_is_refined_until_the_replay_is_stable() {
+    let Some(python) = python() else { return };
+    let task = task("").replace("[0.80, 0.0]", "[0.70, 0.0]");
+    let push = ([START - 0.06, 0.0], 0.0, 0.20, 0.1);
+    let text = mjcf(&plan(&task, BAR, PushForm::Placed, &[push])).unwrap();
+    let coarse = text.replace("timestep=\"0.00025\"", "timestep=\"0.002\"");
+    assert_ne!(coarse, text);
+    let [fine, refined] = &replay(&python, &[("a", text), ("b", coarse)])[..] else { panic!() };
+    let steps = |result: &Json| result["runs"].as_array().map_or(0, Vec::len);
+    assert_eq!((steps(fine), &fine["timestep"]), (1, &Json::from(2.5e-4)), "{fine:#}");
+    assert!(steps(refined) > 1, "{refined:#}");
+    assert_eq!(refined["runs"][0]["failure"], "moves too fast", "{refined:#}");
+    for result in [fine, refined] {
+        assert_eq!(result["reached"], true, "{result:#}");
+    }
+}
+
 fn task(obstacles: &str) -> String {
     format!(
         "

@@ -7,6 +7,7 @@ use serde_json::Value as Json;
 use crate::number::millimetres;
 use crate::plan_picture::space_figures;
 use crate::plan_text::plan_line;
+use crate::second_opinion::Judged;
 use crate::verdict::{replay_warnings, verdict_line};
 use pushplan::asset::{PLAN_VERSION, PlanFile};
 use pushplan::{
@@ -23,19 +24,23 @@ use super::{space, stage};
 
 /// Returns the page of a replayed plan. `predicted` is the trajectory of its effect model, if it
 /// was computed, and `recipe` repeats the replays.
-pub fn verdict_page(
+pub fn verdict_page<'a>(
     file: &PlanFile,
     predicted: Option<&Trajectory>,
-    verdict: &Verdict,
+    judged: impl Into<Judged<'a>>,
     recipe: Recipe,
     view: PageView,
 ) -> String {
+    let Judged { verdict, second } = judged.into();
     let task = &file.task;
     let mut making = Making::of(task, plan_line(&file.plan));
     let space = making.drawing(&file.plan, &file.tools, verdict);
     let plan = making.plan(&file.tools, &file.plan, recipe);
     plan.standing = standing(verdict);
     plan.verdict = verdict_line(task, Some(verdict));
+    if let Some(second) = second {
+        plan.verdict += &format!(". {}", second.line());
+    }
     let shown = predicted.map(|trajectory| {
         let reached = Outcome::judge(&task.scene, task, trajectory).reached;
         (Layer::Predicted, trajectory, reached)

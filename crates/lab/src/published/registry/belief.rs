@@ -11,8 +11,16 @@ const TYPES: &[&str] =
     &["set", "seen", "pairs", "filter, %", "regulator, %", "regulator: joined, %"];
 
 /// Accuracy of inferred masses.
-const MASSES: &[&str] =
-    &["scenes", "seen", "objects", "right, %", "unknown, %", "off by", "heavier, %", "within, %"];
+const MASSES: &[&str] = &[
+    "scenes",
+    "seen",
+    "objects",
+    "correct, %",
+    "unknown, %",
+    "ratio error",
+    "heavier, %",
+    "within, %",
+];
 
 /// Results of closed loops.
 const RUN_COLUMNS: &[&str] = &[
@@ -34,12 +42,12 @@ pub const TABLES: &[Published] = &[
         "pushplan-lab joints --types-only --count 50", &[
             ("Types at the end", &["set", "seen", "pairs", "none, %", "residuals, %", "filter, %",
             "regulator, %", "regulator: joined, %"], ALL),
-            ("How sure, and where", &["set", "seen", "nll", "calibration, %",
-            "all ordered pairs, %", "anchor, median", "axis, median"], &["| regulator |"]),
+            ("Probabilities", &["set", "seen", "nll", "calibration, %", "all ordered pairs, %",
+            "anchor, median", "axis, median"], &["| regulator |"]),
         ]),
     table("joint-errors", "joint-errors.md", (20, 40, "trajectories a row"), BELIEFS,
         "pushplan-lab joints --seen fine --count 40", &[
-            ("The rest of the way", &["set", "after", "true joints", "none", "filter", "regulator",
+            ("Remaining motion", &["set", "after", "true joints", "none", "filter", "regulator",
             "regulator: median", "filter: gap closed, %", "regulator: gap closed, %"], NOISY),
         ]),
     table("joints-misled", "joint-conditions.md", (8, 50, "trajectories a row"), BELIEFS,
@@ -56,37 +64,37 @@ pub const TABLES: &[Published] = &[
         ]),
     table("masses", "masses.md", (8, 100, "trajectories a row"), BELIEFS,
         "pushplan-lab masses --count 100", &[
-            ("Masses are 0.2", MASSES, ALL),
+            ("", MASSES, ALL),
         ]),
     table("masses-crowd", "masses.md", (4, 24, "trajectories a row"), BELIEFS,
         "pushplan-lab masses --touching --crowds 9 --count 24", &[
-            ("Masses are 0.2", MASSES, NOISY),
+            ("", MASSES, NOISY),
         ]),
     table("masses-controlled", "mass-conditions.md", (10, 100, "trajectories a row"), BELIEFS,
         "pushplan-lab masses --touching --controlled rows wedges --count 100", &[
-            ("Masses are 0.2", MASSES, NOISY),
+            ("", MASSES, NOISY),
         ]),
     table("masses-friction", "mass-conditions.md", (8, 100, "trajectories a row"), BELIEFS,
         "pushplan-lab masses --frictions --seen exact --seen fine --count 100", &[
-            ("Masses are 0.2", MASSES, NOISY),
+            ("", MASSES, NOISY),
         ]),
     table("hidden-scenes", "hidden-scenes.md", (8, 200, "tasks"), RUNS,
         "pushplan-lab run --count 200", &[
-            ("Random tasks with joints", RUN_COLUMNS, ALL),
+            ("", RUN_COLUMNS, ALL),
         ]),
     table("hidden-clusters", "hidden-scenes.md", (6, 40, "tasks"), RUNS,
         "pushplan-lab run --kind cluster --count 40", &[
-            ("Random tasks with joints", RUN_COLUMNS, ALL),
+            ("", RUN_COLUMNS, ALL),
         ]),
     table("hidden-3d", "hidden-scenes.md", (3, 30, "tasks"), RUNS,
         "pushplan-lab run --count 30 --engine 3d", &[
-            ("Random tasks with joints", RUN_COLUMNS, &["| all |"]),
+            ("", RUN_COLUMNS, &["| all |"]),
         ]),
     table("probe-rules", "probes.md", (6, 12, "worlds a task"), RUNS,
         "crates/lab/benches/probe-rules runs/rules", &[]),
     table("probes", "probes.md", (15, 100, "scenes"), BELIEFS,
         "pushplan-lab probes --count 100", &[
-            ("Each probe", &["rule", "probes", "right, %", "nll", "test push, median", "mean"],
-            &["| 1 |", "| 3 |"]),
+            ("", &["rule", "probes", "correct, %", "nll", "test push, median", "mean"], &["| 1 |",
+            "| 3 |"]),
         ]),
 ];

@@ -21,7 +21,7 @@ pub const TABLES: &[Published] = &[
     table("cost-far", "cost-crowds.md", (3, 8, "pushes"), PUSHES,
         "pushplan-lab cost --far --pushes 8 --out crates/lab/results", &[
             ("", &["objects out of reach", "network, 64 at a time", "planar, 1 at a time",
-            "ends differ by#1"], ALL),
+            "difference of final poses#1"], ALL),
         ]),
     table("tradeoff", "tradeoff.md", (60, 40, "tasks a level"), PLANS,
         "pushplan-lab tradeoff --pushes 500 --rounds 3 --tasks 40 --tolerance 0.25 \

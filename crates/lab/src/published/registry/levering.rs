@@ -11,10 +11,7 @@ const TWO_STEPS: &[&str] = &["1/60", "1/240"];
 
 /// Errors of lever models.
 const LEVER_COLUMNS: &[&str] =
-    &["model", "lift, mean", "median", "rest, mean", "slip right", "ending right", "time"];
-
-/// Errors of lever points.
-const FRAMES: &[&str] = &["frames seen", "angle, mean", "p95", "rest, mean", "place known"];
+    &["model", "lift, mean", "median", "rest, mean", "slip correct", "ending correct", "time"];
 
 /// Rows of some numbers of frames.
 const SOME_FRAMES: &[&str] = &["| 1 |", "| 2 |", "| 3 |", "| 5 |", "| 8 |"];
@@ -35,13 +32,15 @@ pub const TABLES: &[Published] = &[
         ]),
     table("boards", "boards.md", (8, 993, "lever-ups"), LEVERS,
         "pushplan-lab hdd", &[
-            ("lever-ups on", &["model", "lift, mean", "p95", "turn, mean", "rest, mean",
-            "in or out right", "time"], ALL),
+            ("lever-ups on", &["model", "lift, mean", "p95", "rotation, mean", "rest, mean",
+            "in/out correct", "time"], ALL),
         ]),
     table("lever-points", "lever-points.md", (10, 100, "lever-ups a family"), &[Input::LeverUps],
         "pushplan-lab lever-points", &[
-            ("disc: ", FRAMES, SOME_FRAMES),
-            ("pcb: ", FRAMES, SOME_FRAMES),
+            ("disc: ", &["frames seen", "angle, mean", "p95", "rest, mean", "point known"],
+            SOME_FRAMES),
+            ("pcb: ", &["frames seen", "angle, mean", "p95", "rest, mean", "point known"],
+            SOME_FRAMES),
         ]),
     table("levering", "levering.md", (3, 50, "tasks"), LEVERS,
         "pushplan-lab lever-tasks --count 50", &[]),

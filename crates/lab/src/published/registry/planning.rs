@@ -4,7 +4,7 @@ use super::super::table::{ALL, Published, table};
 use super::inputs::{PLANS, PUSHES, RUNS};
 
 /// Results of tool choices.
-const CHOICES: &[&str] = &["choice", "planar", "3-D", "largest", "≤ 5 cm#1", "pushes"];
+const CHOICES: &[&str] = &["choice", "2-D", "3-D", "largest", "≤ 5 cm#1", "pushes"];
 
 /// Tables of plans.
 #[rustfmt::skip] // a table in a few lines each
@@ -15,12 +15,12 @@ pub const TABLES: &[Published] = &[
             "3-D, mean", "3-D, median", "3-D, p95"], &["| prior,", "network"]),
             ("By kind and method", &["kind", "method", "within, 3-D", "3-D, mean"],
             &["| all | random", "| all | do nothing"]),
-            ("Time and effort", &["kind", "fragile", "pushes", "attempts", "rollouts", "search",
+            ("Cost of planning", &["kind", "fragile", "pushes", "attempts", "rollouts", "search",
             "refinement", "verification", "time", "time, p95"], ALL),
         ]),
     table("shipped-tasks", "shipped-tasks.md", (3, 51, "tasks"), PLANS,
         "pushplan bench tasks tasks/*.yaml", &[
-            ("tasks solved", &["task", "status", "tool", "planar", "3-D", "allowed", "time"],
+            ("tasks solved", &["task", "status", "tool", "2-D", "3-D", "allowed", "time"],
             &["no plan", "| 2 |"]),
         ]),
     table("everyday", "everyday.md", (30, 300, "tasks"), PLANS,
@@ -49,8 +49,8 @@ pub const TABLES: &[Published] = &[
         "pushplan bench tools --form single --tasks 20000", &[]),
     table("refinement", "refinement.md", (8, 200, "tasks"), PLANS,
         "pushplan-lab refinement --model network", &[
-            ("200 random", &["plans", "solved", "on all supports", "predicted", "planar", "3-D",
-            "median", "p95", "replays a task", "rollouts"], ALL),
+            ("", &["plans", "solved", "on all supports", "predicted", "2-D", "3-D", "median", "p95",
+            "replays per task", "rollouts"], ALL),
         ]),
     table("designed-tools", "designed-tools.md", (20, 40, "tasks"), PLANS,
         "for way in '' '--candidates 100' --random; do python3 \

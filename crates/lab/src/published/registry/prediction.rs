@@ -35,7 +35,6 @@ pub const TABLES: &[Published] = &[
         "crates/lab/benches/mujoco runs/mujoco 300 7 && python3 \
          crates/lab/benches/bullet.py runs/mujoco --out runs/bullet && pushplan predict \
          runs/bullet --markdown", &[
-            ("trajectories", &["model", "mean", "median", "p95", "of motion", "95 % interval"],
-            ALL),
+            ("", &["model", "mean", "median", "p95", "of motion", "95 % interval"], ALL),
         ]),
 ];

@@ -1,0 +1,124 @@
+//! Verdict of another physics engine on a plan, shown beside our own.
+
+use serde::{Deserialize, Serialize};
+
+use pushplan::outcome::Verdict;
+
+use super::number::{degrees, millimetres};
+
+/// Verdict on a plan, with the verdict of another engine if it was asked.
+#[derive(Clone, Copy, Debug)]
+pub struct Judged<'a> {
+    /// Verdict of our own engines.
+    pub verdict: &'a Verdict,
+    /// Verdict of another engine.
+    pub second: Option<&'a SecondOpinion>,
+}
+
+impl<'a> From<&'a Verdict> for Judged<'a> {
+    fn from(verdict: &'a Verdict) -> Self {
+        Self { verdict, second: None }
+    }
+}
+
+/// Verdict of another physics engine, which shares no code with ours.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SecondOpinion {
+    /// Name and version of the engine.
+    pub engine: String,
+    /// Whether the plan keeps the rules of its task and its replay works.
+    pub passed: bool,
+    /// Reason why the replay does not work.
+    pub failure: Option<String>,
+    /// Position error of the first goal, metres, if the replay ended.
+    pub error: Option<f64>,
+    /// Heading error of the first goal, radians, if it has a heading.
+    pub heading_error: Option<f64>,
+    /// Distance between the ends of this replay and of our nominal 3-D replay, metres.
+    pub difference: Option<f64>,
+    /// Replays with different time steps; the last one decides.
+    pub runs: Vec<TimedReplay>,
+}
+
+/// Replay with one time step.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TimedReplay {
+    /// Time step, seconds.
+    pub timestep: f64,
+    /// Reason why the replay does not work.
+    pub failure: Option<String>,
+}
+
+impl SecondOpinion {
+    /// Formats the verdict and its reason in a sentence.
+    pub fn line(&self) -> String {
+        let found = match &self.failure {
+            None if self.passed => "passed: reaches the goal".to_owned(),
+            None => "failed: reaches the goal, but breaks a rule of the task".to_owned(),
+            Some(failure) => format!("failed: {failure}{}", self.errors()),
+        };
+        let apart = self.difference.filter(|_| self.failure.is_none()).map(millimetres);
+        let apart = apart.map(|apart| format!(", {apart} from the end in 3-D"));
+        format!("{} {found}{}{}", self.engine, apart.unwrap_or_default(), self.steps())
+    }
+
+    /// Formats the errors of a missed goal.
+    fn errors(&self) -> String {
+        let by = [self.error.map(millimetres), self.heading_error.map(degrees)];
+        let by: Vec<String> = by.into_iter().flatten().collect();
+        if by.is_empty() { String::new() } else { format!(" (error {})", by.join(" and ")) }
+    }
+
+    /// Formats the time steps if their replays differ.
+    fn steps(&self) -> String {
+        if self.runs.iter().all(|run| run.failure == self.failure) {
+            return String::new();
+        }
+        let each = self.runs.iter().map(|run| {
+            let found = run.failure.as_deref().unwrap_or("reaches the goal");
+            format!("{found} at {} ms", 1e3 * run.timestep)
+        });
+        format!("; results differ with the time step: {}", each.collect::<Vec<_>>().join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn opinion(passed: bool, runs: &[(f64, Option<&str>)]) -> SecondOpinion {
+        let runs: Vec<TimedReplay> = runs
+            .iter()
+            .map(|(timestep, failure)| TimedReplay {
+                timestep: *timestep,
+                failure: failure.map(str::to_owned),
+            })
+            .collect();
+        SecondOpinion {
+            engine: "MuJoCo 4.0.0".to_owned(),
+            passed,
+            failure: runs.last().and_then(|run| run.failure.clone()),
+            error: Some(0.0123),
+            heading_error: None,
+            difference: Some(4e-4),
+            runs,
+        }
+    }
+
+    #[test]
+    fn a_line_has_the_verdict_the_reason_and_time_steps_that_differ() {
+        let misses = Some("misses the goal");
+        let lines = [
+            opinion(true, &[(2.5e-4, None)]),
+            opinion(false, &[(2.5e-4, None)]),
+            opinion(false, &[(2.5e-4, misses), (1.25e-4, misses)]),
+            opinion(true, &[(2.5e-4, misses), (1.25e-4, None), (6.25e-5, None)]),
+        ];
+        insta::assert_snapshot!(lines.map(|one| one.line()).join("\n"), @r"
+        MuJoCo 4.0.0 passed: reaches the goal, 0.4 mm from the end in 3-D
+        MuJoCo 4.0.0 failed: reaches the goal, but breaks a rule of the task, 0.4 mm from the end in 3-D
+        MuJoCo 4.0.0 failed: misses the goal (error 12.3 mm)
+        MuJoCo 4.0.0 passed: reaches the goal, 0.4 mm from the end in 3-D; results differ with the time step: misses the goal at 0.25 ms, reaches the goal at 0.125 ms, reaches the goal at 0.0625 ms
+        ");
+    }
+}
