@@ -19,8 +19,8 @@ use crate::published::{self, Fingerprint, Published, tables};
 #[derive(Args, Debug)]
 #[command(
     after_help = "Runs in the root of the repository; without names measures every stale table. A
-table is stale if the weights or the answers to 20 fixed tasks and pushes differ from those that it was
-measured with. Run the same command again to resume.
+table is stale if the weights or the answers to 20 fixed tasks and pushes differ from those that
+it was measured with. Run the same command again to resume.
 
 Examples:
   pushplan-lab measure --list
