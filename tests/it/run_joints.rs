@@ -1,5 +1,5 @@
-//! Runs on doors and drawers whose true joint differs from the task: stuck, on another hinge, with a
-//! shorter travel, or with a spring.
+//! Runs on doors and drawers whose true joint differs from the task: stuck, on another hinge, with
+//! a shorter travel, or with a spring.
 
 use pushplan::asset::load_world;
 use pushplan::{

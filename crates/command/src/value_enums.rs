@@ -55,7 +55,7 @@ pub enum Judge {
 /// Physics that `verify` can ask.
 pub static JUDGES: [(&str, Judge, &str); 2] = [
     ("built-in", Judge::BuiltIn, "2-D and 3-D engine of pushplan"),
-    ("mujoco", Judge::Mujoco, "MuJoCo of a Python, as a second opinion"),
+    ("mujoco", Judge::Mujoco, "Second opinion by the MuJoCo of a Python"),
 ];
 
 /// Rules for choosing exploratory pushes.

@@ -74,9 +74,9 @@ const FOOT: f64 = 1e-3;
 const TABLE_DEPTH: f64 = 0.5;
 
 /// Clearance of a cuboid or prism above the table, metres. It touches the table only if it tips
-/// beyond its feet. On a finite table, so does a cylinder, which the edge may have to support. On an
-/// unlimited one it never touches, because MuJoCo's contact of cylinder and plane topples standing
-/// cylinders.
+/// beyond its feet. On a finite table, so does a cylinder, which the edge may have to support. On
+/// an unlimited one it never touches, because MuJoCo's contact of cylinder and plane topples
+/// standing cylinders.
 const CLEAR: f64 = 5e-4;
 
 /// Returns the scene of `file`'s task with its tool and the plan's pushes, as MJCF. For a plan with

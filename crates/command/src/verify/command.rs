@@ -53,7 +53,8 @@ pub struct VerifyArgs {
     #[arg(required = true, value_name = "PLAN")]
     plans: Vec<PathBuf>,
     /// Physics whose verdict gives the exit code
-    #[arg(long, value_parser = possible_values(&JUDGES), value_name = "ENGINE", default_value = "built-in")]
+    #[arg(long, value_parser = possible_values(&JUDGES), value_name = "ENGINE",
+          default_value = "built-in")]
     engine: Judge,
     /// Minimum number of perturbed replays per engine; up to 64 until the verdict is clear. 3-D
     /// replays are skipped if too few clearly succeed in 2-D

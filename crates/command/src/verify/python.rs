@@ -2,13 +2,14 @@
 
 use std::env;
 use std::ffi::OsString;
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions};
 use std::io;
 use std::path::{self, Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::Duration;
 
+use pushplan::plain_file;
 use tempfile::TempDir;
 
 use super::super::error::CliError;
@@ -80,14 +81,20 @@ impl Python {
             // MuJoCo writes its log into the current folder.
             .current_dir(scripts.folder.path())
             .stdin(Stdio::null())
-            .stdout(File::create(&output)?)
-            .stderr(File::create(&errors)?)
+            .stdout(created(&output)?)
+            .stderr(created(&errors)?)
             .spawn()?;
         let status = wait(child, stops)?;
-        let text = |path: &Path| fs::read(path).map(|b| String::from_utf8_lossy(&b).into_owned());
+        let text =
+            |path: &Path| plain_file::read(path).map(|b| String::from_utf8_lossy(&b).into_owned());
         let complaint = text(&errors)?.trim_end().lines().last().unwrap_or_default().to_owned();
         Ok((status, Written { output: text(&output)?, complaint }))
     }
+}
+
+/// Creates an empty file of the temporary folder.
+fn created(path: &Path) -> io::Result<File> {
+    plain_file::open_to_write(path, OpenOptions::new().write(true).create(true).truncate(true))
 }
 
 /// Temporary folder with a script, removed when dropped.
