@@ -102,6 +102,8 @@ pub mod network;
 #[doc(hidden)]
 pub mod outcome;
 #[doc(hidden)]
+pub mod plain_file;
+#[doc(hidden)]
 pub mod plan;
 #[doc(hidden)]
 pub mod progress;

@@ -60,6 +60,9 @@ impl Fault {
                 "free some space, or name a folder on another disk"
             }
             ErrorKind::IsADirectory => "name a file, not a folder",
+            ErrorKind::InvalidInput => {
+                "name a plain file; write the output of another program to a file first"
+            }
             ErrorKind::InvalidData => "the file must be text in UTF-8",
             _ => "",
         };

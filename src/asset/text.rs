@@ -1,10 +1,10 @@
 //! Text of a file, with its name in faults and its language.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use crate::checksum::checksum;
+use crate::plain_file;
 
 use super::diagnostic::Fault;
 
@@ -91,8 +91,7 @@ pub fn read_text(path: &Path) -> Result<(String, String), Fault> {
     let fault = |error: std::io::Error| Fault::io(path, "read the file", &error);
     let name = path.display().to_string();
     let mut text = String::new();
-    // The read is limited, because the length claimed by a device or pipe cannot be trusted.
-    File::open(path)
+    plain_file::open(path)
         .map_err(fault)?
         .take(MAX_BYTES + 1)
         .read_to_string(&mut text)

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::checksum::{checksum, extend};
+use crate::plain_file;
 
 use super::{
     Config, Normaliser, Parameters, Statistics, Tables,
@@ -155,7 +156,7 @@ impl<C: Card> Weights<C> {
     /// # Errors
     /// [`WeightsError`] if it cannot be read or is not a sound weights file.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, WeightsError> {
-        Self::from_bytes(&std::fs::read(path)?)
+        Self::from_bytes(&plain_file::read(path.as_ref())?)
     }
 
     /// Reads a file's bytes.

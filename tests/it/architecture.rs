@@ -7,6 +7,7 @@ use std::path::Path;
 use crate::ROOT;
 
 mod cycles;
+mod plain_files;
 mod reading;
 
 use reading::{code_of, imports, names, sources};

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use clap::Args;
 
+use pushplan::plain_file;
 use pushplan_act::belief::BeliefRegulator;
 use pushplan_act::regulator::RegulatorWeights;
 use pushplan_bench::store::digest;
@@ -38,7 +39,7 @@ impl RegulatorArgs {
     pub fn load(&self) -> Result<Option<(BeliefRegulator, String)>, CliError> {
         let weights = match self.regulator.as_deref() {
             Some(NONE) => return Ok(None),
-            Some(path) => std::fs::read(Path::new(path))
+            Some(path) => plain_file::read(Path::new(path))
                 .map_err(Into::into)
                 .and_then(|bytes| RegulatorWeights::from_bytes(&bytes))
                 .map_err(|error| CliError::File(format!("{path}: {error}")))?,

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::belief::Numbers;
 use pushplan::asset::{Faults, write_atomic};
 use pushplan::geometry::Pose;
+use pushplan::plain_file;
 use pushplan::{
     outcome::Frame,
     scene::{State, TableFit, Tool},
@@ -173,7 +174,7 @@ impl Trace {
     /// [`ActError::Trace`] if the file at `path` is missing or damaged.
     pub fn load(path: &Path) -> Result<Self, ActError> {
         let fault = |why: String| ActError::Trace(format!("{}: {why}", path.display()));
-        let text = std::fs::read(path).map_err(|error| fault(error.to_string()))?;
+        let text = plain_file::read(path).map_err(|error| fault(error.to_string()))?;
         let trace: Self =
             serde_json::from_slice(&text).map_err(|error| fault(error.to_string()))?;
         // Pages count strokes by these indices.

@@ -5,6 +5,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{BufReader, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use pushplan::plain_file;
 use pushplan::progress::Progress;
 
 use super::error::StoreError;
@@ -53,10 +54,7 @@ impl Journal {
             None => manifest.save(dir)?,
         }
         let read = read_records(dir, &manifest, form, look)?;
-        let file = OpenOptions::new()
-            .append(true)
-            .create(true)
-            .open(&path)
+        let file = plain_file::open_to_write(&path, OpenOptions::new().append(true).create(true))
             .map_err(StoreError::io("write", &path))?;
         if read.torn {
             progress.note(&format!(
@@ -127,7 +125,7 @@ pub fn read_records(
 ) -> Result<Held, StoreError> {
     let path = dir.join(form.file());
     let mut held = Held { count: 0, bytes: 0, torn: false };
-    let mut file = match File::open(&path) {
+    let mut file = match plain_file::open(&path) {
         Ok(file) => BufReader::new(file),
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(held),
         Err(error) => return Err(StoreError::io("read", &path)(error)),

@@ -4,6 +4,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
+use pushplan::plain_file;
 use pushplan::progress::Progress;
 
 use super::error::StoreError;
@@ -30,18 +31,15 @@ impl FolderLock {
     ///
     /// # Errors
     /// Returns [`StoreError::Busy`] if another process holds the lock, and [`StoreError::Io`] if
-    /// the folder cannot be created or written.
+    /// the folder cannot be created or written, or if the lock is a symbolic link.
     pub fn take(dir: &Path, progress: &dyn Progress) -> Result<Self, StoreError> {
         fs::create_dir_all(dir).map_err(StoreError::io("create", dir))?;
         let path = dir.join(LOCK);
         loop {
             // The file is not truncated because it contains the name of the writer.
-            let mut file = OpenOptions::new()
-                .read(true)
-                .write(true)
-                .create(true)
-                .truncate(false)
-                .open(&path)
+            let mut options = OpenOptions::new();
+            options.read(true).write(true).create(true).truncate(false);
+            let mut file = plain_file::open_to_write(&path, &options)
                 .map_err(StoreError::io("write", &path))?;
             let locked = file.try_lock();
             let before = writer(&mut file);
@@ -78,7 +76,7 @@ impl Drop for FolderLock {
 /// Returns the process that holds the lock of a folder, or was killed while it did. The file is
 /// only read, because a temporary lock could block another process.
 pub(super) fn writer_of(dir: &Path) -> Option<String> {
-    writer(&mut File::open(dir.join(LOCK)).ok()?)
+    writer(&mut plain_file::open(&dir.join(LOCK)).ok()?)
 }
 
 /// Describes this process: `process 4711 on node-3`.
@@ -113,7 +111,7 @@ fn writer(file: &mut File) -> Option<String> {
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let of = |metadata: fs::Metadata| (metadata.dev(), metadata.ino());
-    match (file.metadata(), fs::metadata(path)) {
+    match (file.metadata(), fs::symlink_metadata(path)) {
         (Ok(file), Ok(there)) => of(file) == of(there),
         _ => false,
     }
@@ -173,6 +171,19 @@ mod tests {
         drop(lock);
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
         assert_eq!(writer_of(folder.path()), None);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_lock_that_is_a_link_is_refused_and_its_target_kept() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (own, sent) = (folder.path().join("precious"), folder.path().join("sent"));
+        fs::write(&own, "precious").expect("a file");
+        fs::create_dir(&sent).expect("a folder");
+        std::os::unix::fs::symlink("../precious", sent.join(LOCK)).expect("a link");
+        let error = FolderLock::take(&sent, &NoProgress).expect_err("a link").to_string();
+        assert!(error.contains(LOCK) && error.contains("remove the link"), "{error}");
+        assert_eq!(fs::read_to_string(own).expect("the file"), "precious");
     }
 
     #[test]

@@ -1,12 +1,13 @@
 //! Manifest of a run, `manifest.json`: all settings that determine the bytes of its records.
 
 use std::collections::BTreeMap;
-use std::{fs, path::Path};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
 use pushplan::asset::write_atomic;
+use pushplan::plain_file;
 
 use super::error::StoreError;
 use super::shard::Shard;
@@ -94,7 +95,7 @@ impl RunManifest {
     /// Returns an error if the file cannot be read or is not a valid manifest.
     pub fn load(dir: &Path) -> Result<Option<Self>, StoreError> {
         let path = dir.join(MANIFEST);
-        let text = match fs::read(&path) {
+        let text = match plain_file::read(&path) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(StoreError::io("read", &path)(error)),

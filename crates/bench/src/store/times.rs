@@ -2,13 +2,14 @@
 //! between runs.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
 use pushplan::asset::write_atomic;
+use pushplan::plain_file;
 
 use super::error::StoreError;
 
@@ -38,7 +39,8 @@ impl Times {
         let path = dir.join(TIMES);
         write_atomic(&path, kept.concat().as_bytes()).map_err(StoreError::Write)?;
         let file =
-            OpenOptions::new().append(true).open(&path).map_err(StoreError::io("write", &path))?;
+            plain_file::open_to_write(&path, OpenOptions::new().append(true))
+                .map_err(StoreError::io("write", &path))?;
         Ok(Self { file, path })
     }
 
@@ -54,7 +56,7 @@ impl Times {
 /// result depends on them.
 pub(super) fn read_times(dir: &Path) -> Result<Vec<(TimesLine, String)>, StoreError> {
     let path = dir.join(TIMES);
-    let bytes = match fs::read(&path) {
+    let bytes = match plain_file::read(&path) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
         Err(error) => return Err(StoreError::io("read", &path)(error)),

@@ -1,10 +1,11 @@
 //! Access to files that a file names: only in its folder or below, unless a root folder is given.
 
-use std::fs::File;
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+
+use pushplan::plain_file;
 
 /// Maximum size of a file, bytes; meshes have some megabytes.
 const LONGEST: u64 = 64 << 20;
@@ -118,9 +119,16 @@ impl Files {
             advice: advice.to_owned(),
         };
         let mut bytes = Vec::new();
-        let read = File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_end(&mut bytes));
+        let read =
+            plain_file::open(path).and_then(|file| file.take(LONGEST + 1).read_to_end(&mut bytes));
         match read {
-            Err(error) => Err(refused(format!("cannot be read: {error}"), "check the path")),
+            Err(error) => {
+                let advice = match error.kind() {
+                    ErrorKind::InvalidInput => "name a plain file",
+                    _ => "check the path",
+                };
+                Err(refused(format!("cannot be read: {error}"), advice))
+            }
             Ok(_) if bytes.len() as u64 > LONGEST => {
                 let what = format!("has more than {} megabytes", LONGEST >> 20);
                 Err(refused(what, "make the mesh coarser"))
