@@ -12,6 +12,7 @@ mod cuboids;
 mod flat;
 mod grid;
 mod outline;
+mod part_points;
 mod planar_hull;
 mod polygon;
 mod pose;

@@ -7,6 +7,7 @@ mod groups;
 mod joints;
 mod names;
 mod objects;
+mod occupancy;
 mod pieces;
 mod scene;
 mod shadow;

@@ -14,6 +14,9 @@ const WORTH: f64 = 2e-4;
 const NEAREST: f64 = 1.1e-3;
 const STRAIGHTEST: f64 = 0.018;
 
+/// Area below which an outline counts as a line, square metres.
+pub(super) const FLAT: f64 = 1e-7;
+
 /// Number of directions in which outlines are compared.
 const DIRECTIONS: usize = 360;
 
@@ -28,7 +31,7 @@ pub(super) fn area(corners: &[Vector]) -> f64 {
 pub(super) fn shadow(points: &[Vector]) -> Option<(Base, Vector, f64)> {
     let outline = planar_hull(points, 0.0);
     let size = area(&outline);
-    if outline.len() < 3 || size < 1e-7 {
+    if outline.len() < 3 || size < FLAT {
         return None;
     }
     let corners = fewer(&outline);

@@ -17,7 +17,7 @@ const LEAN: f64 = 1e-3;
 const PRISM: f64 = 2e-4;
 
 /// Minimum height of a solid that can be pushed, metres.
-const THIN: f64 = 1e-3;
+pub(super) const THIN: f64 = 1e-3;
 
 /// Height above the lowest point within which points of a mesh touch the table, metres; at least a
 /// hundredth of its height.
