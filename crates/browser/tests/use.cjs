@@ -99,6 +99,13 @@ async function usedAsPeopleDo(browser, address) {
   const cut = await opened(browser, link.slice(0, -9));
   check(/damaged/.test(await shown(cut.page, '#trouble')), 'a truncated link is reported');
   await cut.page.close();
+  // The first is refused by its length, the second while it is unpacked.
+  const unpacks = require('node:zlib').deflateRawSync(Buffer.alloc(150e6)).toString('base64url');
+  for (const [part, what] of [['A'.repeat(800000), 'a long link'], [unpacks, 'a link that unpacks to 150 MB']]) {
+    const long = await opened(browser, `${address}#task=${part}`);
+    check(/too long/.test(await shown(long.page, '#trouble')), `${what} is refused`);
+    await long.page.close();
+  }
 
   // Cancelled.
   await page.locator('#example').selectOption('crowd');
