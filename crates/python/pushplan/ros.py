@@ -40,6 +40,7 @@ from typing import Any, Optional, Sequence
 import numpy as np
 
 from . import _native
+from ._ending import until_signal
 
 __all__ = ["Node", "Stopped", "main"]
 
@@ -114,6 +115,12 @@ class Node:
             self._cancelled.set()
             if self._worker is not None:
                 self._worker.join()
+
+    def stop(self) -> None:
+        """Stops the robot if a run is active, and shuts the context down."""
+        if self._one.locked():
+            self._stop()
+        self.node.context.try_shutdown()
 
     # Subscriptions.
 
@@ -359,11 +366,14 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     parser.add_argument("--tries", type=int, default=8, help="maximum number of plans in a run [default: 8]")
     options = parser.parse_args(arguments)
     import rclpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
+    from rclpy.signals import SignalHandlerOptions  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
     task = _native.Task.load(options.task)
-    rclpy.init()
+    # The handlers of rclpy wait for callbacks, which may be solving.
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     try:
-        Node(task, name=options.name, tries=options.tries, effort=options.effort).spin()
+        node = Node(task, name=options.name, tries=options.tries, effort=options.effort)
+        until_signal(node.spin, node.stop)
     finally:
         if rclpy.ok():
             rclpy.shutdown()

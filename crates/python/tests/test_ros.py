@@ -5,9 +5,12 @@ from __future__ import annotations
 import json
 import math
 import os
+import signal
+import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 from typing import Any, Callable, Iterator
 
 import numpy as np
@@ -161,6 +164,29 @@ def test_a_run_is_cancelled_and_either_side_starts_again(context: None) -> None:
     assert robot.state("ended", "failed").get("reached"), robot.states
     node.stop()
     turning.stop()
+
+
+@pytest.mark.parametrize("busy", [False, True])
+def test_a_signal_ends_the_node_within_a_second(busy: bool, tmp_path: Path, context: None) -> None:
+    path = tmp_path / "push.yaml"
+    path.write_text(json.dumps(TASK))
+    effort = "thorough" if busy else "draft"
+    node = subprocess.Popen([sys.executable, "-m", "pushplan.ros", str(path), "--effort", effort])
+    robot = Robot(pushplan.Task.from_dict(TASK), stuck=True)
+    turning = Turning(robot.node)
+    try:
+        client = robot.node.create_client(robot.parts["Trigger"], "/pushplan/solve")
+        assert client.wait_for_service(timeout_sec=20)
+        if busy:
+            client.call_async(robot.parts["Trigger"].Request())
+            time.sleep(0.3)
+        began = time.monotonic()
+        node.send_signal(signal.SIGTERM)
+        assert node.wait(10) == 0
+        assert time.monotonic() - began < 1.0
+    finally:
+        node.kill()
+        turning.stop()
 
 
 def test_a_task_with_one_of_two_goals_met_is_not_reached() -> None:
