@@ -182,6 +182,11 @@ impl Planner {
         self.fit.as_ref()
     }
 
+    /// Returns the time limit.
+    pub fn time_limit(&self) -> Option<Duration> {
+        self.time_limit
+    }
+
     /// Returns `true` if another model screens for the deciding one.
     pub(super) fn is_screened(&self) -> bool {
         self.screen.is_some()

@@ -57,6 +57,23 @@ fn a_tool_is_proposed_that_passes_where_no_shipped_one_does() {
 }
 
 #[test]
+fn a_time_limit_ends_the_search_with_the_best_so_far() {
+    let folder = TempDir::new().expect("a folder");
+    let task = folder.path().join("slot.yaml");
+    fs::write(&task, SLOT).expect("a file");
+    let (task, out) = (task.to_str().expect("UTF-8"), folder.path().to_str().expect("UTF-8"));
+    let all = ["design", task, "--candidates", "1000000", "--json", "--out", out];
+    let began = std::time::Instant::now();
+    let output = run(&[&all[..], &["--time-limit", "2"]].concat());
+    // Units of work that have begun are finished.
+    assert!(began.elapsed().as_secs() < 60, "{:?}", began.elapsed());
+    let design: Json = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(design["stopped"], true, "{}", stderr(&output));
+    let output = run(&["design", task, "--time-limit", "0"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
 fn proposals_do_not_depend_on_the_number_of_threads() {
     let settings = DesignSettings { solved: 1, ..DesignSettings::looking_at(60) };
     let [one, three] = [1, 3].map(|threads| {

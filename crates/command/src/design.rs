@@ -1,6 +1,7 @@
 //! `pushplan design`: a tool for a task that no existing tool solves.
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use clap::Args;
 
@@ -16,7 +17,7 @@ use super::{
     output::{self, ResultArgs},
     progress::TerminalProgress,
     session::Session,
-    solve::{Results, ending, share, solve_error},
+    solve::{Results, ending, share, solve_error, time_limit},
     task_argument::TaskArgs,
     value_enums::{EFFORTS, possible_values},
 };
@@ -62,6 +63,9 @@ pub struct DesignArgs {
     /// the task, otherwise 0.75]
     #[arg(long, value_name = "SHARE", value_parser = share)]
     robustness: Option<f64>,
+    /// Time limit in seconds, after which the best proposal so far is reported
+    #[arg(long, value_name = "SECONDS", value_parser = time_limit)]
+    time_limit: Option<Duration>,
     #[command(flatten)]
     results: ResultArgs,
     /// Also write an animation of the 3-D replay
@@ -79,7 +83,11 @@ pub fn run(args: &DesignArgs, session: &Session) -> Result<u8, CliError> {
         let advice = "`design` proposes no tools with blades; choose a pushing task";
         return Err(CliError::usage("this is a levering task, not a pushing task", advice));
     }
-    let planner = Planner::for_effort(args.effort)?.seed(args.seed).build();
+    let planner = Planner::for_effort(args.effort)?.seed(args.seed);
+    let planner = match args.time_limit {
+        Some(limit) => planner.time_limit(limit).build(),
+        None => planner.build(),
+    };
     output::prepare(&args.results.out)?;
     let settings = DesignSettings::looking_at(args.candidates as usize);
     let settings = DesignSettings { parts: args.parts.into(), ..settings };

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pushplan::asset::ToolLibrary;
 use pushplan::plan::{CostToGo, Uncertainty};
-use pushplan::progress::Progress;
+use pushplan::progress::{Progress, Until};
 use pushplan::scene::Tool;
 use pushplan::solve::{Class, Grade, Planner, Solution, SolveError, stated};
 use pushplan::task::{Task, ToolChoice};
@@ -25,8 +25,8 @@ const LONGEST_NAME: usize = 48;
 /// Proposes a tool for a pushing task that no tool of `library` solves, or that the new tool solves
 /// with more margin. Its plan is verified as for any other tool.
 ///
-/// The result is the same for any number of threads. If `progress` cancels, the best proposal so
-/// far is returned.
+/// The result is the same for any number of threads. If `progress` cancels, or after the time limit
+/// of the planner, the best proposal so far is returned.
 ///
 /// ```
 /// use pushplan::progress::NoProgress;
@@ -56,6 +56,7 @@ pub fn design(
             "tools are proposed only for tasks of pushing, but this task has lever-ups".into();
         return Err(SolveError::BadTask { task: task.name.clone(), what });
     }
+    let progress = &Until::new(progress, planner.time_limit());
     let situation = stated(task);
     progress.stage("existing tools");
     let all = Task { tools: ToolChoice::All, ..task.clone() };
@@ -78,7 +79,6 @@ pub fn design(
         promising: seen.iter().filter(|one| one.look.misses <= 1.0).count(),
         solved: 0,
     };
-
     // The remaining tools cannot push at all.
     seen.retain(|one| one.look.misses.is_finite());
     let mut best: Option<(Option<Grade>, Proposal)> = None;

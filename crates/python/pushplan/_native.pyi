@@ -516,6 +516,7 @@ def design(
     candidates: int = 1000,
     effort: _Effort = "standard",
     seed: int = 0,
+    time_limit: float | None = None,
     threads: int = 0,
 ) -> Design: ...
 def predict(

@@ -88,6 +88,8 @@ impl PyDesign {
 ///     Maximum number of parts of the tool.
 /// candidates : int, default 1000
 ///     Number of screened tools, 1 to 1000000.
+/// time_limit : float, optional
+///     Seconds after which the best proposal so far is returned.
 /// effort, seed, threads
 ///     Options of the planner, see `solve`.
 ///
@@ -107,7 +109,7 @@ impl PyDesign {
 /// >>> tools = pushplan.ToolLibrary.shipped().with_tool(design.tool)
 #[pyfunction]
 #[pyo3(signature = (task, tools = None, *, parts = 3, candidates = 1000, effort = "standard",
-                    seed = 0, threads = 0))]
+                    seed = 0, time_limit = None, threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn design(
     py: Python<'_>,
@@ -117,6 +119,7 @@ pub fn design(
     candidates: usize,
     effort: &str,
     seed: u64,
+    time_limit: Option<f64>,
     threads: usize,
 ) -> PyResult<PyDesign> {
     let most = DesignSettings::MOST_PARTS;
@@ -127,7 +130,7 @@ pub fn design(
         );
         return Err(PyValueError::new_err(message));
     }
-    let (model, replays, time_limit, fit) = (None, None, None, None);
+    let (model, replays, fit) = (None, None, None);
     let asked = Asked { effort, model, out_of_range: "warn", seed, replays, time_limit, fit };
     let planner = asked.planner(py)?;
     let library = given(py, tools.as_ref())?;

@@ -44,6 +44,15 @@ def test_the_tool_is_that_of_the_command(command: Any, tmp_path: Any) -> None:
     assert design.tool.name in str(design) and design.tool.name in repr(design)
 
 
+def test_a_time_limit_returns_the_best_so_far(tmp_path: Any) -> None:
+    path = tmp_path / "slot.yaml"
+    path.write_text(SLOT)
+    design = pushplan.design(pushplan.Task.load(path), candidates=1000000, time_limit=1.0)
+    assert design.to_dict()["stopped"]
+    with pytest.raises(ValueError, match="time_limit"):
+        pushplan.design(pushplan.Task.load(path), time_limit=0.0)
+
+
 def test_numbers_out_of_range_are_said(task: pushplan.Task) -> None:
     for parts, candidates in [(0, 1000), (99, 1000), (3, 0)]:
         with pytest.raises(ValueError, match="candidates"):

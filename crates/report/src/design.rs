@@ -56,6 +56,7 @@ pub fn design_document(task: &Task, design: &Design) -> Document {
 /// Returns the reason why no tool is proposed, a clause after the result of the known tools.
 fn why_none(design: &Design) -> &'static str {
     match (design.known.status, design.spent.looked_at) {
+        _ if design.stopped => "; stopped before the search finished",
         (PlanStatus::Solved, 0) => "; no tool can solve it with more margin",
         (PlanStatus::Solved, _) => "; the search found no tool with more margin",
         _ => "; the search found no better tool",
