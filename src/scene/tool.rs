@@ -201,6 +201,11 @@ impl Tool {
         &self.parts
     }
 
+    /// Returns the height of the highest part, metres; 0 for a tool with a blade.
+    pub fn height(&self) -> f64 {
+        self.parts.iter().map(|part| part.shape.height()).fold(0.0, f64::max)
+    }
+
     /// Returns the solids that bodies touch: the parts without the seams between flush ones.
     pub fn outline(&self) -> &[Piece] {
         &self.outline

@@ -155,8 +155,12 @@ pub(super) fn check<'a>(
             ));
         }
     }
-    if let Some(wrong) = task.arm.as_ref().and_then(|arm| arm.fault()) {
-        return fault(wrong);
+    if let Some(arm) = &task.arm {
+        let refused = |tool: &Arc<Tool>| Some(arm.refuses(tool)?.0);
+        let tool = tools.and_then(|tools| tools.iter().find_map(refused));
+        if let Some(wrong) = arm.fault().or(tool) {
+            return fault(wrong);
+        }
     }
     if tools.is_some_and(<[_]>::is_empty) {
         return fault("the task allows no tool".into());

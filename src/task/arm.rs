@@ -24,6 +24,9 @@ pub trait RobotArm: Any + Debug + Send + Sync {
     /// metres.
     fn ring(&self) -> [f64; 2];
 
+    /// Returns the distance from its flange to the underside of a tool, metres.
+    fn mount_length(&self) -> f64;
+
     /// Returns the position below its flange at the start of a plan, metres.
     fn home(&self) -> Vector;
 
@@ -64,6 +67,24 @@ pub trait RobotArm: Any + Debug + Send + Sync {
 }
 
 impl dyn RobotArm {
+    /// Returns why a tool cannot be mounted, and the remedy, if it is higher than the mount is long:
+    /// it would be inside the arm.
+    pub fn refuses(&self, tool: &Tool) -> Option<(String, String)> {
+        let (height, length) = (tool.height(), self.mount_length());
+        // A millionth of a metre is a rounding of files.
+        (height > length + 1e-6).then(|| {
+            let message = format!(
+                "`{}` is {height:.3} m high, but its underside is only {length:.3} m below the \
+                 flange, so it would be inside the arm",
+                tool.name
+            );
+            let advice = format!(
+                "write `tool_mount: {{length: {height:.3}}}` or more, or choose a lower tool"
+            );
+            (message, advice)
+        })
+    }
+
     /// Returns the arm as its own type.
     pub fn downcast<T: RobotArm>(&self) -> Option<&T> {
         (self as &dyn Any).downcast_ref()

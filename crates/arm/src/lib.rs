@@ -13,6 +13,7 @@
 //!   tools, cheap enough for a search and computed by `find`.
 //! - `read`, `urdf`: readers for the keys of a file and for URDFs. A URDF provides the joint chain
 //!   from its root to the flange, joint limits, and the collision solids of the links.
+//! - `mesh_files`: the meshes that a URDF names, in its folder or in an allowed one.
 //! - `kinematics`: frames and Jacobian from joint positions; `inverse`: joint positions from a
 //!   pose.
 //! - `room`: collisions of the arm and its tool.
@@ -37,6 +38,8 @@ mod hull;
 mod inverse;
 mod judge;
 mod kinematics;
+#[cfg(feature = "urdf")]
+mod mesh_files;
 mod model;
 mod path;
 mod places;
@@ -46,6 +49,8 @@ mod room;
 mod urdf;
 
 pub use hull::Hull;
+#[cfg(feature = "urdf")]
+pub use mesh_files::allow_files_in;
 pub use model::{Arm, ArmBody, ArmJoint, ToolMount};
 pub use places::Places;
 pub use read::install;

@@ -95,6 +95,10 @@ impl RobotArm for Arm {
         self.places.ring
     }
 
+    fn mount_length(&self) -> f64 {
+        self.mount.length
+    }
+
     fn home(&self) -> Vector {
         flange(self, &frames(self, &self.home)).position.xy()
     }

@@ -6,6 +6,7 @@ use std::path::Path;
 use roxmltree::{Document, Node};
 
 use super::hull::Hull;
+use super::mesh_files;
 use super::model::{Arm, ArmBody, ArmJoint, ToolMount};
 use super::places::Places;
 use pushplan::asset::read_text;
@@ -13,7 +14,7 @@ use pushplan::geometry::{Footprint, Pose3, Turn3, Vector3};
 use pushplan_import::Outline;
 use pushplan_import::foreign::urdf::{Geometry, Origin, axis, end, geometry, limit, origin};
 use pushplan_import::foreign::xml::{Flaw, element, elements};
-use pushplan_import::foreign::{Files, load};
+use pushplan_import::foreign::{Refused, load};
 
 use super::read::Wrong;
 
@@ -24,22 +25,20 @@ const FARTHEST: f64 = 1e5;
 struct File<'a> {
     path: &'a Path,
     document: &'a Document<'a>,
-    /// Mesh files; packages may be in any folder above the URDF.
-    files: Files,
 }
 
 /// Reads the arm in a file from its root to the link `flange`. The base is at the origin, the tool
 /// mount is not set, and the home position is the middle of the joint limits.
 pub(crate) fn chain(path: &Path, flange: &str) -> Result<Arm, Wrong> {
-    let (_, text) = read_text(path).map_err(|fault| (fault.to_string(), String::new()))?;
+    let (_, text) =
+        read_text(path).map_err(|fault| (format!("{}: {}", fault.file, fault.message), fault.advice))?;
     let document = Document::parse(&text).map_err(|error| {
         (
             format!("{}: not valid XML: {error}", path.display()),
             "is this the right file?".to_owned(),
         )
     })?;
-    let files = Files::of(path, Some(Path::new("/")));
-    let file = File { path, document: &document, files };
+    let file = File { path, document: &document };
     let root = document.root_element();
     if !root.has_tag_name("robot") {
         return Err(file.wrong(
@@ -244,13 +243,9 @@ impl<'a> File<'a> {
         (name, scale): (&str, [f64; 3]),
         own: &Pose3,
     ) -> Result<Hull, Wrong> {
-        let path = self.files.find("", name).map_err(|_| {
-            let advice =
-                "put it at the path given in the URDF, or replace meshes by boxes and cylinders";
-            self.wrong(collision, format!("there is no mesh `{name}`"), advice)
-        })?;
-        let (corners, _) = load(&path)
-            .map_err(|refused| self.wrong(collision, refused.message, refused.advice))?;
+        let refused = |Refused { message, advice }| self.wrong(collision, message, advice);
+        let path = mesh_files::find(self.path, name).map_err(refused)?;
+        let (corners, _) = load(&path).map_err(refused)?;
         if corners.iter().flatten().any(|number| number.is_nan() || number.abs() >= FARTHEST) {
             return Err(self.wrong(collision, "this mesh is damaged", "export it again"));
         }

@@ -1,6 +1,6 @@
 //! `pushplan import`: tools and objects of other programs.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
@@ -60,10 +60,6 @@ pub struct ImportArgs {
     /// Body to treat as free although the file fixes it, repeatable
     #[arg(long, value_name = "NAME")]
     free: Vec<String>,
-    /// Folder in or below which the referenced meshes and includes must be [default: the folder of
-    /// the file]
-    #[arg(long, value_name = "FOLDER")]
-    root: Option<PathBuf>,
     /// Unit of a mesh
     #[arg(long, value_enum, default_value_t = Unit::M)]
     unit: Unit,
@@ -127,7 +123,7 @@ pub fn run(args: &ImportArgs, session: &Session) -> Result<u8, CliError> {
         friction: args.friction,
         shift: args.shift,
     };
-    let reading = Reading { root: args.root.clone(), unit: args.unit.metres() };
+    let reading = Reading { root: session.root().map(Path::to_path_buf), unit: args.unit.metres() };
     let (model, language, mut notes) = read(&args.file, &reading)?;
     let from = from(&file, language);
     let (text, more) = match args.kind {

@@ -1,6 +1,7 @@
 //! Shared state of subcommands: output, progress and threads.
 
 use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
@@ -22,6 +23,10 @@ pub struct GlobalArgs {
     /// Suppress progress and warnings on stderr
     #[arg(long, short, global = true)]
     pub quiet: bool,
+    /// Folder in or below which the files named by MJCF and URDF files must be [default: the folder
+    /// of the file]
+    #[arg(long, global = true, value_name = "FOLDER")]
+    pub root: Option<PathBuf>,
 }
 
 /// Templates of a stage without and with counted units.
@@ -37,10 +42,11 @@ const SHOW_AFTER: Duration = Duration::from_millis(50);
 pub struct Session {
     pool: ThreadPool,
     quiet: bool,
+    root: Option<PathBuf>,
 }
 
 impl Session {
-    /// Starts the threads.
+    /// Starts the threads, and allows arms to use files in the root folder.
     ///
     /// # Errors
     /// Returns [`CliError::Unexpected`] if the system refuses that many threads.
@@ -58,7 +64,15 @@ impl Session {
             .num_threads(threads)
             .build()
             .map_err(|error| CliError::unexpected("cannot start the threads", &error))?;
-        Ok(Self { pool, quiet: args.quiet })
+        if let Some(root) = &args.root {
+            pushplan_arm::allow_files_in(root);
+        }
+        Ok(Self { pool, quiet: args.quiet, root: args.root.clone() })
+    }
+
+    /// Returns the folder that must contain all files named by a file, if the user gives one.
+    pub fn root(&self) -> Option<&Path> {
+        self.root.as_deref()
     }
 
     /// Returns the number of threads.

@@ -100,6 +100,10 @@ impl<'a> Opened<'a> {
             if !able {
                 self.ledger.fault(node, format!("`{}` {what}", tool.name), mixed);
             }
+            let arm = self.task.as_ref().and_then(|task| task.arm.as_deref());
+            if let Some((message, _)) = arm.and_then(|arm| arm.refuses(tool)) {
+                self.ledger.fault(node, message, "mount the tool farther below, and plan again");
+            }
         }
         let Some(task) = &self.task else { return };
         for lever in plan.lever_steps().map(|step| &step.lever) {

@@ -49,8 +49,15 @@ impl Task {
             let message = "all tools are allowed, but the library has none";
             return Err(Fault::of_file(&self.name, message, advice).into());
         }
+        let held = |tool: &&Arc<Tool>| self.arm.as_ref().is_none_or(|arm| arm.refuses(tool).is_none());
+        let all = library.iter().filter(held);
+        if self.tools == ToolChoice::All && all.clone().next().is_none() {
+            let message = "all tools are allowed, but all are higher than `tool_mount` is long";
+            let advice = "write a larger `length` of `tool_mount`";
+            return Err(Fault::of_file(&self.name, message, advice).into());
+        }
         // A task that allows levering may name tools that cannot push.
-        self.chosen(library, library.iter(), self.levers.is_some(), |tool| tool.pushes())
+        self.chosen(library, all, self.levers.is_some(), |tool| tool.pushes())
     }
 
     /// Returns the allowed blade tools in the order of the task; if all are allowed, in the order
@@ -138,6 +145,7 @@ pub(in crate::asset) fn parse_with(
     let task = task_of(&root, file, &mut ledger);
     if let Some(library) = library {
         check_tools(&root, library, &mut ledger);
+        check_mounts(&root, task.as_ref(), library, &mut ledger);
     }
     ledger.finish(task)
 }
@@ -151,6 +159,17 @@ fn check_tools(root: &Node, library: &ToolLibrary, ledger: &mut Ledger) {
     for node in root.get("tools").map(Node::items).unwrap_or_default() {
         if let Some(name) = tool_name(node).filter(|name| !pushes(name)) {
             let (message, advice) = unknown_tool(name, library);
+            ledger.fault(node, message, advice);
+        }
+    }
+}
+
+/// Reports named tools that the arm of the task cannot hold.
+fn check_mounts(root: &Node, task: Option<&Task>, library: &ToolLibrary, ledger: &mut Ledger) {
+    let Some(arm) = task.and_then(|task| task.arm.as_deref()) else { return };
+    for node in root.get("tools").map(Node::items).unwrap_or_default() {
+        let tool = tool_name(node).and_then(|name| library.get(name));
+        if let Some((message, advice)) = tool.and_then(|tool| arm.refuses(tool)) {
             ledger.fault(node, message, advice);
         }
     }
