@@ -101,6 +101,9 @@ mod tests {
             assert_eq!(error.kind(), ErrorKind::InvalidInput, "{}", path.display());
             assert!(open_to_write(path, OpenOptions::new().append(true)).is_err());
         }
-        assert_eq!(open(&folder.path().join("none")).expect_err("none").kind(), ErrorKind::NotFound);
+        assert_eq!(
+            open(&folder.path().join("none")).expect_err("none").kind(),
+            ErrorKind::NotFound
+        );
     }
 }

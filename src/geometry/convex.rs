@@ -70,7 +70,12 @@ mod tests {
                 [0, 1, 2].map(|axis| low[axis] + size[axis] * f64::from(k >> axis & 1))
             }));
             let sides = [
-                [0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5],
+                [0, 2, 3, 1],
+                [4, 5, 7, 6],
+                [0, 1, 5, 4],
+                [2, 6, 7, 3],
+                [0, 4, 6, 2],
+                [1, 3, 7, 5],
             ];
             faces.extend(sides.iter().flat_map(|[a, b, c, d]| {
                 [[*a, *b, *c], [*a, *c, *d]].map(|face| face.map(|corner: u32| first + corner))

@@ -100,7 +100,6 @@ impl Reduced {
 /// Returns the cells of a box, both ends included.
 fn cells(low: IVector, high: IVector) -> impl Iterator<Item = IVector> {
     (low.x..=high.x).flat_map(move |x| {
-        (low.y..=high.y)
-            .flat_map(move |y| (low.z..=high.z).map(move |z| IVector::new(x, y, z)))
+        (low.y..=high.y).flat_map(move |y| (low.z..=high.z).map(move |z| IVector::new(x, y, z)))
     })
 }

@@ -2,6 +2,7 @@
 //! reason. Python tests check exported files with MuJoCo, `mcap` and NumPy.
 
 mod advice;
+mod costs;
 mod imports;
 mod kinds;
 mod meshes;

@@ -30,8 +30,8 @@ struct File<'a> {
 /// Reads the arm in a file from its root to the link `flange`. The base is at the origin, the tool
 /// mount is not set, and the home position is the middle of the joint limits.
 pub(crate) fn chain(path: &Path, flange: &str) -> Result<Arm, Wrong> {
-    let (_, text) =
-        read_text(path).map_err(|fault| (format!("{}: {}", fault.file, fault.message), fault.advice))?;
+    let (_, text) = read_text(path)
+        .map_err(|fault| (format!("{}: {}", fault.file, fault.message), fault.advice))?;
     let document = Document::parse(&text).map_err(|error| {
         (
             format!("{}: not valid XML: {error}", path.display()),

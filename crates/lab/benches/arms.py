@@ -202,7 +202,7 @@ def main():
                 name = options.out / f"{path.stem}.{arm}.{round(length * 100)}.yaml"
                 name.write_text(json.dumps(task))
                 out = options.out / f"{arm}-{round(length * 100)}"
-                code, done = solve(options.program, name, out, more)
+                code, done = solve(options.program, name, out, [*more, "--root", urdf.parents[4]])
                 faults, worst = None, None
                 if code == 0:
                     count += 1

@@ -26,6 +26,7 @@ __all__ = [
     "ToolLibrary",
     "Trajectory",
     "Verdict",
+    "allow_files_in",
     "design",
     "export_mcap",
     "export_mjcf",
@@ -555,6 +556,7 @@ def infer(
     threads: int = 0,
 ) -> Belief: ...
 def main(arguments: Sequence[str]) -> int: ...
+def allow_files_in(folder: _Path) -> None: ...
 def import_tool(
     path: _Path,
     *,

@@ -20,6 +20,20 @@ use crate::{arguments, errors, work};
 // Defaults are literals, because Python shows them; the friction must equal `Wanted::FRICTION`.
 const _: () = assert!(Wanted::FRICTION == 0.5);
 
+/// Allows the URDF files of arms to name meshes in and below a folder, until the process ends.
+///
+/// Otherwise, meshes must be in or below the folder of the URDF. A task cannot allow a folder,
+/// because tasks may come from other people.
+///
+/// Parameters
+/// ----------
+/// folder : str or path-like
+///     Folder, such as the one that contains the packages named by `package://`.
+#[pyfunction]
+pub fn allow_files_in(folder: PathBuf) {
+    pushplan_arm::allow_files_in(folder);
+}
+
 /// Imports a tool from a MuJoCo (MJCF), ROS (URDF) or mesh (STL, OBJ) file.
 ///
 /// The command `pushplan import --help` lists the supported elements. Small differences between

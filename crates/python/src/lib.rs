@@ -44,7 +44,7 @@ mod _native {
     #[pymodule_export]
     use super::design::{PyDesign, design};
     #[pymodule_export]
-    use super::formats::{export_mcap, export_mjcf, import_task, import_tool};
+    use super::formats::{allow_files_in, export_mcap, export_mjcf, import_task, import_tool};
     #[pymodule_export]
     use super::plan::PyPlan;
     #[pymodule_export]

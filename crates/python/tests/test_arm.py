@@ -34,7 +34,7 @@ def test_pinocchio_finds_the_tool_where_the_plan_has_it(arm: str, tmp_path: Path
     }
     path = tmp_path / "push.yaml"
     path.write_text(json.dumps(task))
-    done = command("solve", path, "--out", tmp_path, "--effort", "draft", "--quiet")
+    done = command("solve", path, "--out", tmp_path, "--effort", "draft", "--quiet", "--root", urdf.parents[4])
     assert done.returncode == 0, done.stderr
     plan = json.loads((tmp_path / "push.plan.json").read_text())
     faults, worst = arms.Judge(urdf, flange).faults(plan, 0.2)

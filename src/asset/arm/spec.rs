@@ -29,7 +29,8 @@ pub(in crate::asset) const TOOL_MOUNT: Key = Key::optional(
                 high: 2.0,
                 advice: "a gripper that holds a tool is about 0.15 m long",
             }),
-            "From the flange to the tool's underside, metres; default 0.15.",
+            "From the flange to the tool's underside, metres, at least the height of the tool; default \
+             0.15.",
         ),
         Key::optional(
             "yaw_deg",

@@ -49,7 +49,8 @@ impl Task {
             let message = "all tools are allowed, but the library has none";
             return Err(Fault::of_file(&self.name, message, advice).into());
         }
-        let held = |tool: &&Arc<Tool>| self.arm.as_ref().is_none_or(|arm| arm.refuses(tool).is_none());
+        let held =
+            |tool: &&Arc<Tool>| self.arm.as_ref().is_none_or(|arm| arm.refuses(tool).is_none());
         let all = library.iter().filter(held);
         if self.tools == ToolChoice::All && all.clone().next().is_none() {
             let message = "all tools are allowed, but all are higher than `tool_mount` is long";

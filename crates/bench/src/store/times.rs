@@ -38,9 +38,8 @@ impl Times {
     pub fn open(dir: &Path, kept: &[String]) -> Result<Self, StoreError> {
         let path = dir.join(TIMES);
         write_atomic(&path, kept.concat().as_bytes()).map_err(StoreError::Write)?;
-        let file =
-            plain_file::open_to_write(&path, OpenOptions::new().append(true))
-                .map_err(StoreError::io("write", &path))?;
+        let file = plain_file::open_to_write(&path, OpenOptions::new().append(true))
+            .map_err(StoreError::io("write", &path))?;
         Ok(Self { file, path })
     }
 
