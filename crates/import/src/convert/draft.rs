@@ -154,25 +154,8 @@ fn shape(
 ) -> Option<Shape> {
     let off = (at - middle).norm();
     let polygon = |corners: &[Vector], ledger: &mut Ledger| {
-        let made = ConvexPolygon::balanced(corners, at);
-        match &made {
-            Err(PolygonError::Unbalanced) => {
-                let by = 1e3 * off;
-                let message = format!(
-                    "the centre of mass of `{name}` is {by:.1} mm from the middle, outside its \
-                     outline"
-                );
-                let advice = "correct the position in its <inertial> (`origin` in URDF, `pos` in \
-                              MJCF), or remove <inertial> and give --density";
-                ledger.fault(solid.place, message, advice);
-            }
-            Err(error) => {
-                let message = format!("`{name}` is not a prism that pushplan supports: {error}");
-                ledger.fault(solid.place, message, "replace it by a box or a cylinder");
-            }
-            Ok(_) => {}
-        }
-        made.ok().map(|base| Shape::Prism { base, height })
+        let base = balanced(name, solid, corners, (at, off), ledger)?;
+        Some(Shape::Prism { base, height })
     };
     match &upright.base {
         Base::Rectangle([x, y]) if at == middle => Some(Shape::Cuboid { size: [*x, *y, height] }),
@@ -211,6 +194,41 @@ fn shape(
         }
         Base::Polygon(corners) => polygon(corners, ledger),
     }
+}
+
+/// Returns the base of a prism whose centre of mass is `at`, at a distance from the middle; reports
+/// a fault if there is none.
+fn balanced(
+    name: &str,
+    solid: &Solid,
+    corners: &[Vector],
+    (at, off): (Vector, f64),
+    ledger: &mut Ledger,
+) -> Option<ConvexPolygon> {
+    let made = match ConvexPolygon::balanced(corners, at) {
+        // Corners that are too near, or almost on a line, are left out.
+        Err(error) if error != PolygonError::Unbalanced => {
+            ConvexPolygon::balanced(&fewer(corners), at)
+        }
+        made => made,
+    };
+    match &made {
+        Err(PolygonError::Unbalanced) => {
+            let by = 1e3 * off;
+            let message = format!(
+                "the centre of mass of `{name}` is {by:.1} mm from the middle, outside its outline"
+            );
+            let advice = "correct the position in its <inertial> (`origin` in URDF, `pos` in \
+                          MJCF), or remove <inertial> and give --density";
+            ledger.fault(solid.place, message, advice);
+        }
+        Err(error) => {
+            let message = format!("`{name}` is not a prism that pushplan supports: {error}");
+            ledger.fault(solid.place, message, "replace it by a box or a cylinder");
+        }
+        Ok(_) => {}
+    }
+    made.ok()
 }
 
 /// Reports the deviation of a mesh from the prism or cylinder that represents it.
