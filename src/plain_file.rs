@@ -1,7 +1,7 @@
 //! Opening of user files: plain files only, because a pipe or a device may never end.
 //!
-//! All readers of files that a user names open them here, see the test
-//! `architecture::plain_files`.
+//! Every reader of files that users name opens them here; the test `architecture::plain_files` holds
+//! it.
 
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Error, ErrorKind, Read};
@@ -32,7 +32,7 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 }
 
 /// Opens a plain file for writing with `options`, which must not truncate it. Symbolic links are
-/// not followed, because the file that they name belongs to somebody else.
+/// not followed, because the file that they name may belong to another user.
 ///
 /// # Errors
 /// Returns an error if the file cannot be opened, or [`ErrorKind::InvalidInput`] if it is a

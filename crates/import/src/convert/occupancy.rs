@@ -12,7 +12,7 @@ pub(super) struct Occupancy {
     low: Vector,
     cell: f64,
     size: [usize; 2],
-    /// For every row, the number of free cells before each column.
+    /// Number of free cells before each column, row by row.
     free: Vec<Vec<u32>>,
     count: usize,
 }
