@@ -91,7 +91,7 @@ mod tests {
 
     #[test]
     fn parts_of_a_mesh_with_many_cuts_have_the_same_hulls() {
-        let (points, faces) = ell(12);
+        let (points, faces) = ell(11);
         let vectors: Vec<ParryVector> = points.iter().copied().map(ParryVector::from).collect();
         let triangles = Triangles { points: &vectors, faces: &faces };
         assert!(triangles.cuts(VOXELS) < MOST_CUTS);

@@ -6,7 +6,7 @@ use std::sync::{PoisonError, RwLock};
 use pushplan_import::foreign::{Files, Refused};
 
 /// Allowed folders of this process, global because files are read in many places. A task cannot add
-/// one, because a task may come from somebody else.
+/// one, because tasks may come from other users.
 static ALLOWED: RwLock<Vec<PathBuf>> = RwLock::new(Vec::new());
 
 /// Allows the URDFs of arms to name meshes in and below `folder`, in addition to their own folders.

@@ -3,7 +3,7 @@
 /** Maximum length of a task's text, bytes. */
 const LONGEST = 1 << 18;
 
-/** Maximum length of a link, letters: a text that cannot be compressed takes four letters for three bytes. */
+/** Maximum length of a link, letters: four for three bytes of a text that cannot be compressed. */
 const LONGEST_LINK = 1.4 * LONGEST;
 
 /** Number of bytes that are packed or unpacked together; each may unpack to a thousand. */

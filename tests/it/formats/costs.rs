@@ -108,7 +108,7 @@ fn a_lock_is_not_written_through_a_link() {
     fs::create_dir(&sent).expect("a folder");
     std::os::unix::fs::symlink("../precious", sent.join(".pushplan-lock")).expect("a link");
     let sent = sent.to_str().expect("UTF-8");
-    let output = run(&["run", "--example", "pull-back", "--world", "2", "--out", sent]);
+    let output = run(&["run", "tasks/pull-back.yaml", "--world", "2", "--out", sent]);
     assert_ne!(output.status.code(), Some(0));
     assert!(stderr(&output).contains("remove the link"), "{}", stderr(&output));
     assert_eq!(fs::read_to_string(own).expect("the file"), "precious\n");

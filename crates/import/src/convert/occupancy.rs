@@ -12,7 +12,7 @@ pub(super) struct Occupancy {
     low: Vector,
     cell: f64,
     size: [usize; 2],
-    /// Number of free cells before each column, for every row.
+    /// Number of free cells before each column, row by row.
     free: Vec<Vec<u32>>,
     count: usize,
 }
