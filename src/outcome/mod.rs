@@ -2,13 +2,13 @@
 //!
 //! Quantities are in SI units and radians. This module neither simulates nor plans.
 
+mod fallen;
 mod in_turn;
-mod keep;
 mod lever;
+mod object_rules;
 mod push_fault;
 mod range_warnings;
 mod result;
-mod strays;
 mod trajectory;
 mod verdict;
 mod warning;
@@ -16,6 +16,7 @@ mod warning;
 pub use crate::task::{Ending, Lift};
 pub use in_turn::in_turn;
 pub use lever::{LEVER_FRAMES, LeverFault, LeverTrajectory, LeverWarning, has_slipped};
+pub use object_rules::ObjectRules;
 pub use push_fault::PushFault;
 pub use result::{Miss, Outcome};
 pub use trajectory::{Contact, Force, Frame, Record, Spread, Trajectory};

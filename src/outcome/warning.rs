@@ -66,11 +66,11 @@ pub enum Warning {
         /// Name of the object.
         object: String,
     },
-    /// An object was moved farther than the task allows.
+    /// An object was moved farther than the task allows. The replay ended.
     NotKept {
         /// Name of the object.
         object: String,
-        /// Distance moved, metres.
+        /// Displacement of the farthest corner of its outline, metres.
         moved: f64,
         /// Allowed distance, metres.
         within: f64,
@@ -119,11 +119,11 @@ pub enum Warning {
         /// Name of the obstacle.
         obstacle: String,
     },
-    /// The hand, or the handle by which it holds the tool, passes through an obstacle.
+    /// The hand, or the handle by which it holds the tool, passes through an obstacle or an object.
     HandThrough {
         /// Index of the push.
         push: usize,
-        /// Name of the obstacle.
+        /// Name of the obstacle or object.
         obstacle: String,
     },
     /// The lifted tool has no free path to a push from the previous one.
@@ -275,6 +275,7 @@ impl Warning {
             Warning::Jammed { .. }
                 | Warning::Strained
                 | Warning::OffTable { .. }
+                | Warning::NotKept { .. }
                 | Warning::KeptOut { .. }
         )
     }

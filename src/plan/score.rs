@@ -21,8 +21,7 @@ pub(super) fn final_score(task: &Task, trajectory: &Trajectory) -> f64 {
         return f64::INFINITY;
     }
     let score = finite_score(task, &frame.state);
-    let stops = is_blocked(trajectory) || task.scene.not_kept(&frame.state).is_some();
-    if stops { behind(score) } else { score }
+    if is_blocked(trajectory) { behind(score) } else { score }
 }
 
 /// Returns the score of a state; infinite instead of NaN.

@@ -227,23 +227,28 @@ impl Workspace<'_> {
     }
 
     /// Returns the margin of hand and handle to obstacles and to objects at their height. All such
-    /// objects count while the tool is set down, and all but the pushed one during the push.
+    /// objects count while the tool is set down, and all but the pushed one during the push. The
+    /// pushed one also counts where the tool meets it.
     fn hand(
         &self,
         tool: &Tool,
         (from, to): (&Pose, &Pose),
         (state, pushed): (&State, usize),
-        set_down: bool,
+        set_down: Option<f64>,
     ) -> f64 {
         let (task, mut least) = (self.task, FAR);
+        // Position of the tool when it meets the pushed object.
+        let approach = set_down.map_or(0.0, |room| STAND_OFF + room);
+        let travel = (to.position - from.position).norm();
+        let meets = from.towards(to, (approach / travel).min(1.0));
         let most = FAR + HAND_CLEARANCE;
         for carried in task.robot.carried(tool, task.pushes.lift).into_iter().flatten() {
-            let [from, to] = [from, to].map(|frame| *frame * carried.pose);
+            let [from, to, meets] = [from, to, &meets].map(|frame| *frame * carried.pose);
             for other in task.scene.fixed(Mover::Hand, carried.span) {
                 let still = (&other.footprint, &other.pose);
                 least = least.min(swept_clearance(&carried.footprint, &from, &to, still, most));
             }
-            for other in task.scene.above(carried.span[1]).filter(|_| set_down) {
+            for other in task.scene.above(carried.span[1]).filter(|_| set_down.is_some()) {
                 let still = (&other.footprint, &other.pose);
                 least = least.min(clearance((&carried.footprint, &from), still, most));
             }
@@ -254,8 +259,12 @@ impl Workspace<'_> {
                     continue;
                 }
                 let still = (&object.shape.footprint(), pose);
-                if set_down {
+                if set_down.is_some() {
                     least = least.min(clearance((&carried.footprint, &from), still, most));
+                }
+                if k == pushed && set_down.is_some() {
+                    let gap = clearance((&carried.footprint, &meets), still, most);
+                    least = least.min(gap + STAND_OFF);
                 }
                 if k != pushed && object.meets(carried.span) {
                     least = least.min(swept_clearance(&carried.footprint, &from, &to, still, most));
@@ -309,7 +318,7 @@ impl Workspace<'_> {
             base: distance_to_origin(push.start, push.end()) - task.robot.reach_min,
             obstacle,
             object,
-            hand: self.hand(tool, (&from, &to), (state, pushed), set_down.is_some()),
+            hand: self.hand(tool, (&from, &to), (state, pushed), set_down),
         }
     }
 

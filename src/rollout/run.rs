@@ -3,7 +3,7 @@
 use crate::{
     contact::{Bodies, FrameProblem, Motion, Movable, Touch},
     geometry::{Pose, Vector},
-    outcome::{Contact, Frame, Record, Spread, Trajectory, Warning},
+    outcome::{Contact, Frame, ObjectRules, Record, Spread, Trajectory, Warning},
     scene::{Body, ModelSpec, REST_SPEED, Region, Scene, State, Velocity},
     task::{COAST_FRAME, FrameStep, Job, MAX_COAST_FRAMES, Stroke},
 };
@@ -31,6 +31,7 @@ pub(super) struct Memory {
 /// A job in progress.
 pub(super) struct Run<'a> {
     scene: &'a Scene,
+    rules: ObjectRules<'a>,
     job: &'a Job,
     /// Bodies of the whole scene.
     whole: &'a Bodies,
@@ -76,6 +77,7 @@ impl<'a> Run<'a> {
     ) -> Self {
         let mut run = Self {
             scene,
+            rules: ObjectRules::of(scene).apart(Region::MARGIN).starting(&job.start),
             job,
             whole,
             memory,
@@ -98,9 +100,8 @@ impl<'a> Run<'a> {
             trajectory: Trajectory::new(by.clone()),
         };
         if record == Record::Frames {
-            let tool =
-                job.motion.slide().strokes.first().map(|stroke| stroke.from).unwrap_or_default();
-            run.keep_frame(tool);
+            let first = job.motion.slide().strokes.first();
+            run.keep_frame(first.map(|stroke| stroke.from).unwrap_or_default());
         }
         run
     }
@@ -263,8 +264,9 @@ impl<'a> Run<'a> {
             self.keep_between(step);
         }
         self.time += step.duration;
-        let strays = (!self.blocked).then(|| self.scene.strays(&self.state, Region::MARGIN));
-        if let Some(warning) = strays.flatten() {
+        if !self.blocked
+            && let Some(warning) = self.rules.broken(&self.state)
+        {
             self.trajectory.warnings.push(warning);
             self.blocked = true;
         }
@@ -310,10 +312,8 @@ impl<'a> Run<'a> {
             let travel = step.to.position - step.from.position;
             self.pressing.touch(first.0, with, touch.depth, touch.normal, travel);
         }
-        let second = match with {
-            Body::Object(second) => Some((second, Body::Object(first.0))),
-            _ => None,
-        };
+        let other = |second| (second, Body::Object(first.0));
+        let second = if let Body::Object(second) = with { Some(other(second)) } else { None };
         for ((object, with), stops) in
             [Some((first.0, with)), second].into_iter().flatten().zip(touch.stops)
         {

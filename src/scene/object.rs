@@ -26,6 +26,9 @@ pub struct Object {
     /// Maximum distance by which a plan may move it, metres; `None` for no limit.
     #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
     pub keep: Option<f64>,
+    /// Pose from which [`Self::keep`] counts; `None` for the pose at the start.
+    #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
+    pub kept_from: Option<Pose>,
     /// Whether it may topple or leave the table.
     #[serde(with = "planar_only", default, skip_serializing_if = "std::ops::Not::not")]
     pub may_fall: bool,
@@ -77,6 +80,7 @@ impl Object {
             friction: Self::FRICTION,
             pose: Pose::default(),
             keep: None,
+            kept_from: None,
             may_fall: false,
             max_force: None,
             color: None,

@@ -51,11 +51,11 @@ impl Region {
     }
 
     /// Returns `true` if this footprint at `pose` is in the region or nearer to it than `margin`
-    /// metres.
+    /// metres; a negative margin is an overlap that does not count.
     pub fn holds(&self, footprint: &Footprint, pose: &Pose, margin: f64) -> bool {
         let own = match margin {
             margin if margin > 0.0 => self.footprint().grown(margin),
-            _ => self.footprint().shrunk(Self::SLACK),
+            margin => self.footprint().shrunk(Self::SLACK.max(-margin)),
         };
         clearance((footprint, pose), (&own, &self.pose), Self::SLACK) <= 0.0
     }

@@ -40,7 +40,10 @@ impl Situation {
         };
         let mut situation = self.clone();
         let scene = Arc::make_mut(&mut situation.scene);
-        scene.objects.iter_mut().for_each(|object| moved(&mut object.pose));
+        for object in &mut scene.objects {
+            moved(&mut object.pose);
+            object.kept_from.iter_mut().for_each(moved);
+        }
         scene.obstacles.iter_mut().for_each(|obstacle| moved(&mut obstacle.pose));
         scene.mounts.iter_mut().for_each(|mount| carried(&mut mount.kind));
         scene.joints.iter_mut().for_each(|joint| carried(&mut joint.kind));

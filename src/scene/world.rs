@@ -1,5 +1,7 @@
 //! Scenes: a table with objects, joints and obstacles.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Vector, wrap_angle};
@@ -22,8 +24,14 @@ pub struct TableTop {
 impl TableTop {
     /// Returns `true` if a body with its centre of mass at `position` stays on the table.
     pub fn holds(&self, position: Vector) -> bool {
+        self.holds_within(position, 0.0)
+    }
+
+    /// Returns `true` if a body whose centre of mass is within `error` metres of `position` may
+    /// stay on the table.
+    pub fn holds_within(&self, position: Vector, error: f64) -> bool {
         let off = position - self.middle;
-        2.0 * off.x.abs() <= self.size[0] && 2.0 * off.y.abs() <= self.size[1]
+        2.0 * (off.x.abs() - error) <= self.size[0] && 2.0 * (off.y.abs() - error) <= self.size[1]
     }
 }
 
@@ -88,7 +96,7 @@ impl Scene {
 
     /// Adds a joint between an object and the world.
     pub fn with_mount(mut self, object: usize, kind: JointKind) -> Self {
-        self.mounts.push(WorldJoint { object, kind });
+        self.mounts.push(WorldJoint::new(object, kind));
         self
     }
 
@@ -155,13 +163,6 @@ impl Scene {
         }
     }
 
-    /// Returns the first object whose centre has left the table although it may not fall.
-    pub fn off_table(&self, state: &State) -> Option<usize> {
-        let top = self.table_top?;
-        let off = |k: &usize| !top.holds(self.centre(*k, state)) && !self.objects[*k].may_fall;
-        self.things().map(|(k, _)| k).find(off)
-    }
-
     /// Returns the index of the object called `name`.
     pub fn object(&self, name: &str) -> Option<usize> {
         self.objects.iter().position(|object| object.name == name)
@@ -173,10 +174,25 @@ impl Scene {
         self.mounts.iter().find(|mount| mount.object == thing)
     }
 
-    /// Moves the objects to their poses in `state` and updates the joints to the world.
+    /// Returns the scene in which `keep` counts from the poses in `state`, unless the objects were
+    /// [moved](Self::moved_to) before.
+    pub fn keeping_from(&self, state: &State) -> Cow<'_, Self> {
+        if self.objects.iter().all(|object| object.keep.is_none()) {
+            return Cow::Borrowed(self);
+        }
+        let mut scene = self.clone();
+        for (object, pose) in scene.objects.iter_mut().zip(&state.poses) {
+            object.kept_from = object.keep.map(|_| object.kept_from.unwrap_or(*pose));
+        }
+        Cow::Owned(scene)
+    }
+
+    /// Moves the objects to their poses in `state` and updates the joints to the world. `keep`
+    /// still counts from the poses before.
     pub fn moved_to(&self, state: &State) -> Self {
         let mut scene = self.clone();
         for (object, pose) in scene.objects.iter_mut().zip(&state.poses) {
+            object.kept_from = object.keep.map(|_| object.kept_from.unwrap_or(object.pose));
             object.pose = *pose;
         }
         for mount in &mut scene.mounts {

@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::Pose;
 
-use super::{JointKind, Object, Span};
+use super::serde_planar::planar_only;
+use super::{JointKind, Object, Span, is_zero};
 
 /// A revolute or prismatic joint between an object and the world.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -13,9 +14,21 @@ pub struct WorldJoint {
     pub object: usize,
     /// Motion that it allows; angles and lengths count from the start of the object.
     pub kind: JointKind,
+    /// Stiffness of a damped spring that pulls the object back to its start, N/m, or N m per radian
+    /// of a revolute joint. Only the engines simulate springs, so only hidden worlds have them.
+    #[serde(with = "planar_only", default, skip_serializing_if = "is_zero")]
+    pub spring: f64,
 }
 
 impl WorldJoint {
+    /// Ratio of damping and stiffness of a spring, seconds: the time in which the object returns.
+    pub const RETURN: f64 = 0.1;
+
+    /// Creates a joint without a spring.
+    pub fn new(object: usize, kind: JointKind) -> Self {
+        Self { object, kind, spring: 0.0 }
+    }
+
     /// Returns the joint's frame in the world and relative to the object. A revolute joint rotates
     /// about the frame's origin; a prismatic joint slides along its x axis.
     pub fn frames(&self, objects: &[Object]) -> [Pose; 2] {
@@ -91,17 +104,14 @@ mod tests {
     fn a_door_keeps_its_hinge_and_its_limits_wherever_it_starts_from() {
         let limits = Some(Span::new(0.0, 1.5));
         let at = Vector::new(0.4, 0.1);
-        let door = WorldJoint { object: 0, kind: JointKind::Revolute { at, limits } };
+        let door = WorldJoint::new(0, JointKind::Revolute { at, limits });
         let start = Pose::new(0.6, 0.1, 0.3);
         let open = door.pose(&start, 1.0);
         assert!((open.position - at).norm() - 0.2 < 1e-12 && open.heading == 1.3);
         assert!((door.come(&start, &open) - 1.0).abs() < 1e-12);
         let left = door.carried(&start, &open).limits().expect("limits");
         assert!((left.low + 1.0).abs() < 1e-12 && (left.high - 0.5).abs() < 1e-12);
-        let drawer = WorldJoint {
-            object: 0,
-            kind: JointKind::Prismatic { axis: Vector::x(), limits: None },
-        };
+        let drawer = WorldJoint::new(0, JointKind::Prismatic { axis: Vector::x(), limits: None });
         assert_eq!(drawer.come(&start, &drawer.pose(&start, 0.25)), 0.25);
     }
 }

@@ -108,6 +108,18 @@ impl<H: Copy> Asleep<H> {
         Self { asleep: Vec::new(), awake: Vec::new() }
     }
 
+    /// Keeps a body awake, because a spring may move it.
+    pub fn keep_awake<W: Sleepable<Handle = H>>(&mut self, world: &mut W, body: H)
+    where
+        H: PartialEq,
+    {
+        self.asleep.retain(|sleeper| sleeper.body != body);
+        if !self.awake.contains(&body) {
+            self.awake.push(body);
+        }
+        world.wake(body);
+    }
+
     /// Wakes the bodies near an awake body, now or within this step.
     pub fn wake_near<W: Sleepable<Handle = H>>(&mut self, world: &mut W) {
         let mut k = 0;

@@ -119,6 +119,10 @@ impl World for PlanarWorld {
         this.add_joints(scene, physics);
         let bodies = this.bodies.iter().map(|tracked| tracked.handle);
         this.asleep = Asleep::new(&mut this.world, (&groups, bodies), this.tool);
+        for mount in scene.mounts.iter().filter(|mount| mount.spring > 0.0) {
+            let body = this.bodies[this.objects[mount.object].0.body].handle;
+            this.asleep.keep_awake(&mut this.world, body);
+        }
         this
     }
 

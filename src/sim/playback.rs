@@ -6,7 +6,7 @@
 
 use crate::geometry::Pose;
 use crate::{
-    outcome::{Contact, Frame, Record, Trajectory, Warning},
+    outcome::{Contact, Frame, ObjectRules, Record, Trajectory, Warning},
     scene::{Body, ModelSpec, Scene, State},
     task::{COAST_FRAME, FrameStep, Job, MAX_COAST_FRAMES, ToolMotion},
 };
@@ -60,6 +60,7 @@ pub(super) fn playback<W: World>(
         recorder.trajectory.warnings.push(Warning::NotFinite);
         return recorder.finish(scene, motion);
     }
+    let rules = ObjectRules::of(scene).starting(start);
     let mut world = W::build(scene, start, physics, motion, &tool);
     let mut time = 0.0;
     for (index, stroke) in motion.strokes.iter().enumerate() {
@@ -88,14 +89,14 @@ pub(super) fn playback<W: World>(
             time += played.share * frame.duration;
             let tool = frame.from.towards(&frame.to, played.share);
             let recorded = recorder.record(world, time, index, tool);
-            let strays = scene.strays(&recorder.last().state, 0.0);
+            let broken = rules.broken(&recorder.last().state);
             let jam = played.jam.map(|jam| jammed(scene, motion, jam));
             let weak = arm.and_then(|arm| {
                 arm.gives_up(&recorder.violations)
                     .or_else(|| recorder.violations.too_hard(scene).next())
             });
             let stopped = || progress.cancelled().then_some(Warning::Stopped);
-            let ends = jam.or(strays).or(weak).or_else(stopped);
+            let ends = jam.or(broken).or(weak).or_else(stopped);
             let goes_on = recorded && ends.is_none();
             recorder.trajectory.warnings.extend(ends);
             goes_on

@@ -123,6 +123,9 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
         if TIPS {
             let bodies = this.bodies.iter().map(|tracked| tracked.handle);
             this.asleep = Asleep::new(&mut this.world, (&groups, bodies), this.tool);
+            for mount in scene.mounts.iter().filter(|mount| mount.spring > 0.0) {
+                this.asleep.keep_awake(&mut this.world, joints[mount.object].body);
+            }
         }
         this
     }

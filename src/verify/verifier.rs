@@ -16,7 +16,7 @@ use crate::{
 
 use super::arm::arm_faults;
 use super::perturbation::{lifted, perturbed, wary};
-use super::rules::{rule_violations, unplayable};
+use super::rules::{hand_meets, rule_violations, unplayable};
 use super::sequential_test;
 use super::space;
 
@@ -137,6 +137,7 @@ impl<'a> Verifier<'a> {
         let mut forbidden = rule_violations(task, scene, tools, plan);
         if in_space(task, plan) {
             let evidence = self.replay_in_space(task, situation, (tools, plan), None);
+            forbidden.extend(hand_faults((task, scene), tools, plan, [&evidence]));
             return Verdict::judge(forbidden, vec![evidence], task.robustness);
         }
         let motions = plan.slides(tools).unwrap_or_default();
@@ -147,6 +148,7 @@ impl<'a> Verifier<'a> {
             .collect();
         // The 2-D engine comes first, because people compare predictions with it.
         evidence.reverse();
+        forbidden.extend(hand_faults((task, scene), tools, plan, &evidence));
         if let Some(first) = motions.first() {
             let asked = (task, situation);
             forbidden.extend(arm_faults(asked, &first.tool, plan, &evidence, self.joints));
@@ -248,7 +250,9 @@ impl<'a> Verifier<'a> {
                     return stopped(engine, task, situation, perturbation);
                 }
                 let jobs = perturbed(situation, motions, self.settings.seed, draw);
-                self.replay(engine, task, scene, &jobs, perturbation)
+                // An observation with errors is still the pose from which `keep` counts.
+                let start = jobs.first().map_or(&situation.start, |job| &job.start);
+                self.replay(engine, task, &scene.keeping_from(start), &jobs, perturbation)
             })
             .collect()
     }
@@ -320,6 +324,17 @@ fn in_space(task: &Task, plan: &Plan) -> bool {
     task.in_space() || plan.levers()
 }
 
+/// Returns the first object that the hand passes through in these replays.
+fn hand_faults<'e>(
+    asked: (&Task, &Scene),
+    tools: &[Arc<Tool>],
+    plan: &Plan,
+    replays: impl IntoIterator<Item = &'e Evidence>,
+) -> Option<Warning> {
+    let mut played = replays.into_iter().filter_map(|replay| replay.trajectory.as_ref());
+    played.find_map(|trajectory| hand_meets(asked, tools, plan, &trajectory.frames))
+}
+
 /// Returns the evidence of a replay.
 fn evidence(
     engine: &Simulator,
@@ -340,7 +355,6 @@ fn evidence(
     {
         trajectory.warnings.push(Warning::HardPush { needed: force.lasting });
     }
-    trajectory.warnings.extend(scene.not_kept(trajectory.outcome()));
     // Falls that a goal requires need no warning.
     let wanted = |name: &str| {
         let goals = task.goals.iter().filter(|goal| goal.falls());

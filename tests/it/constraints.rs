@@ -3,7 +3,7 @@
 use pushplan::asset::ToolLibrary;
 use pushplan::solve::{Effort, PlanStatus, Planner, Solution};
 use pushplan::{
-    outcome::Warning,
+    outcome::{ObjectRules, Warning},
     scene::{Engine, Region},
     task::Task,
 };
@@ -158,4 +158,35 @@ fn what_may_fall_is_pushed_off_and_said_to_fall() {
     let goal = text.replace("position: [0.5, 0]}", "position: [0.5, 0], may_fall: true}");
     let fault = Task::parse(&goal, "task.yaml").expect_err("a fault").to_string();
     assert!(fault.contains("`box` has a goal on the table but may fall"), "{fault}");
+}
+
+/// Can behind a turnstile, which a straight push would turn.
+const FAN: &str = "
+scene:
+  objects:
+    - {name: can, shape: {cylinder: {radius: 0.03, height: 0.07}}, mass: 0.4, friction: 0.4, position: [0.45, 0.1]}
+    - {name: fan, shape: {cuboid: {size: [0.03, 0.26, 0.07]}}, mass: 0.3, friction: 0.1, position: [0.58, 0]}
+  joints: [{between: [fan, world], kind: revolute, at: [0.58, 0]}]
+robot: {reach: {min: 0.05, max: 0.95}}
+pushes: {max_count: 2, length: 0.3, directions: 8}
+goal: {object: can, position: [0.68, 0.09], tolerance: 0.02}
+";
+
+#[test]
+fn what_is_kept_is_not_turned_at_any_time() {
+    let free = solved(&task(FAN));
+    assert_eq!(free.status, PlanStatus::Solved);
+    let kept = task(&format!("{FAN}keep: {{objects: [fan]}}\n"));
+    let rules = ObjectRules::of(&kept.scene);
+    let broken = |solution: &Solution| {
+        let verdict = solution.best().and_then(|best| best.verdict.as_ref()).expect("replays");
+        Engine::ALL.into_iter().find_map(|engine| {
+            let trajectory = verdict.nominal(engine)?.trajectory.as_ref()?;
+            rules.first_broken(trajectory.frames.iter().map(|frame| &frame.state))
+        })
+    };
+    assert!(broken(&free).is_some(), "without the rule it is turned");
+    let found = solved(&kept);
+    let accepted = matches!(found.status, PlanStatus::Solved | PlanStatus::Fragile);
+    assert!(!accepted || broken(&found).is_none());
 }

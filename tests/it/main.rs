@@ -60,7 +60,9 @@ mod real_pushes;
 mod recorded;
 mod recorded_pushes;
 mod regulator;
+mod run_joints;
 mod run_learning;
+mod run_rules;
 mod seams;
 mod several_goals;
 #[allow(dead_code)]

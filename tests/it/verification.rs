@@ -314,3 +314,57 @@ fn a_support_on_which_a_plan_never_works_makes_it_fragile_by_name() {
     file.write(&path).unwrap();
     assert_eq!(PlanFile::load(&path).unwrap().verdict.unwrap().reason, never.reason);
 }
+
+#[test]
+fn a_hand_that_passes_through_a_tall_object_is_rejected() {
+    // The grip travels from 0.235 to 0.39; the hand has a radius of 5 cm.
+    let good = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
+    let beside = |height: f64, y: f64| {
+        let can = "    - {name: can,";
+        let bottle = format!(
+            "    - {{name: bottle, shape: {{cylinder: {{radius: 0.02, height: {height}}}}}, mass: 0.5, \
+             friction: 0.4, position: [0.36, {y}]}}\n{can}"
+        );
+        let text =
+            TASK.replace(can, &bottle).replace("max: 0.9}", "max: 0.9}, hand: {radius: 0.05}");
+        let task = Task::parse(&text, "bottle.yaml").unwrap_or_else(|faults| panic!("{faults}"));
+        let verifier = Verifier::new(VerifySettings { replays: 0, seed: 1 });
+        verifier.verify(&task, &Situation::stated(&task.scene), &[paddle()], &good)
+    };
+    let met = beside(0.30, 0.06);
+    let hand = Warning::HandThrough { push: 0, obstacle: "bottle".into() };
+    assert_eq!(met.reason, Some(Reason::Forbidden(hand)));
+    assert!(beside(0.10, 0.06).passed, "the hand passes above it");
+    assert!(beside(0.30, 0.09).passed, "the hand passes beside it");
+}
+
+#[test]
+fn a_kept_object_is_not_pushed_away_and_back() {
+    let vase = "    - {name: vase, shape: {cuboid: {size: [0.06, 0.06, 0.08]}}, mass: 0.3, \
+                friction: 0.4, position: [0.5, 0.3]}\nrobot:";
+    let text = TASK.replace("robot:", vase);
+    let stated = |keep: &str| {
+        let text = format!("{}{keep}", text.replace("max_count: 2", "max_count: 3"));
+        Task::parse(&text, "vase.yaml").unwrap_or_else(|faults| panic!("{faults}"))
+    };
+    let verdict = |task: &Task| {
+        // The vase goes 5 cm ahead and comes back, pushed from either side; then the can is pushed.
+        let away = push([0.245, 0.3], 0.0, 0.055);
+        let back = push([0.82, 0.3], std::f64::consts::PI, 0.82 - 0.53 - 0.22);
+        let mut made = plan(vec![away, back, push([0.235, 0.0], 0.0, 0.155)]);
+        if let pushplan::task::Step::Push(step) = &mut made.steps[1] {
+            step.grip_yaw = std::f64::consts::PI;
+        }
+        let verifier = Verifier::new(VerifySettings { replays: 0, seed: 1 });
+        verifier.verify(task, &Situation::stated(&task.scene), &[paddle()], &made)
+    };
+    let free = verdict(&stated(""));
+    let nominal = free.nominal(Engine::Planar).expect("a replay");
+    let vase = nominal.outcome.state.poses[1].position;
+    assert!(nominal.outcome.reached && (vase.x - 0.5).abs() < 4e-3, "it is back: {vase}");
+    let kept = verdict(&stated("keep: {objects: [vase]}\n"));
+    let nominal = kept.nominal(Engine::Planar).expect("a replay");
+    let fault = nominal.fault().expect("a broken rule");
+    assert!(matches!(fault, Warning::NotKept { object, .. } if object == "vase"), "{fault}");
+    assert!(!kept.passed);
+}

@@ -19,6 +19,8 @@ pub const REFUSED: u8 = 6;
 pub const FRAGILE: u8 = 7;
 /// Best plan that meets only some of several goals.
 pub const PARTIAL: u8 = 8;
+/// Run that was stopped because an object broke a rule of the task.
+pub const RULE_BROKEN: u8 = 9;
 /// Interruption by Ctrl-C or a termination signal; finished work is saved.
 pub const INTERRUPTED: u8 = 130;
 
@@ -34,6 +36,7 @@ Exit codes:
     6  request outside the model's range, with `--out-of-range refuse`
     7  fragile plan: it works as planned, but too few perturbed replays reach the goal
     8  partial plan: it meets only some of several goals
+    9  run stopped: an object was observed to break a rule of the task
   130  interrupted; finished work is saved";
 
 #[cfg(test)]
@@ -57,9 +60,10 @@ mod tests {
             REFUSED,
             FRAGILE,
             PARTIAL,
+            RULE_BROKEN,
             INTERRUPTED,
         ];
         assert_eq!(listed, all);
-        assert_eq!(all, [0, 1, 2, 3, 4, 5, 6, 7, 8, 130]);
+        assert_eq!(all, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 130]);
     }
 }

@@ -46,7 +46,7 @@ Writes <out>/<task>.run.json after every push. After an interruption, rerun the 
 predictions, the observations and the beliefs. Drawings are <task>.run.svg and <task>.belief.svg.
 
 Exit code 0: the last observation meets the goal. 4: no push brings the object nearer to the goal. \
-5: the maximum number of pushes is exhausted.
+5: the maximum number of pushes is exhausted. 9: an object is observed to break `keep` or `keep_out`.
 
 Examples:
   pushplan run --example hidden-hinge --world 1
@@ -193,6 +193,7 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
         Some(End::Reached) => exit_code::DONE,
         Some(End::BudgetExhausted) => exit_code::FAILED_VERIFICATION,
         Some(End::NoImprovingPush) | None => exit_code::NO_PLAN,
+        Some(End::RuleBroken) => exit_code::RULE_BROKEN,
     })
 }
 

@@ -76,13 +76,15 @@ pub struct PyRun(Trace);
 
 #[pymethods]
 impl PyRun {
-    /// Reason for the end: `"reached"`, `"budget_exhausted"` (all allowed pushes are made) or
-    /// `"no_improving_push"` (no push brings the object nearer to the goal).
+    /// Reason for the end: `"reached"`, `"budget_exhausted"` (all allowed pushes are made),
+    /// `"no_improving_push"` (no push brings the object nearer to the goal) or `"rule_broken"` (an
+    /// object breaks `keep` or `keep_out`).
     #[getter]
     fn end(&self) -> &'static str {
         match self.0.end {
             Some(End::Reached) => "reached",
             Some(End::BudgetExhausted) => "budget_exhausted",
+            Some(End::RuleBroken) => "rule_broken",
             Some(End::NoImprovingPush) | None => "no_improving_push",
         }
     }

@@ -42,6 +42,7 @@ pub fn run_document(trace: &Trace) -> Document {
         json: json!({
             "task": task.name,
             "end": trace.end,
+            "broken": trace.broken,
             "pushes": trace.pushes(),
             "probes": trace.steps.iter().filter(|step| step.why == Why::Probe).count(),
             "seen_error": seen(trace).map(|state| task.goals[0].error(&state)),
@@ -73,12 +74,14 @@ pub fn headline(trace: &Trace) -> String {
     let end = match trace.end {
         Some(End::Reached) => "reached",
         Some(End::BudgetExhausted | End::NoImprovingPush) => "not reached",
+        Some(End::RuleBroken) => "stopped",
         None => "not finished",
     };
-    let reason = match trace.end {
-        Some(End::BudgetExhausted) => ", because the push budget is exhausted",
-        Some(End::NoImprovingPush) => ", because no push reduces the error",
-        _ => "",
+    let reason = match (trace.end, &trace.broken) {
+        (Some(End::BudgetExhausted), _) => ", because the push budget is exhausted".to_owned(),
+        (Some(End::NoImprovingPush), _) => ", because no push reduces the error".to_owned(),
+        (_, Some(rule)) => format!(", because {rule}"),
+        _ => String::new(),
     };
     let off = |what: &str, state: Option<State>| {
         state.map(|state| format!("{} ({what})", millimetres(trace.task.goals[0].error(&state))))

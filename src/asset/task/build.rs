@@ -95,7 +95,7 @@ pub(super) fn scene(node: &Node) -> Option<Scene> {
             .collect::<Option<_>>()?,
         mounts: items("joints")
             .filter_map(|joint| Some((joint, moving(joint)?)))
-            .map(|(joint, object)| joints::mount(joint, object, &objects))
+            .map(|(joint, object)| world_joints::mount(joint, object, &objects))
             .collect::<Option<_>>()?,
         frictions: items("frictions")
             .map(|node| frictions::friction(node, &objects, &obstacles))

@@ -9,7 +9,7 @@ use crate::asset::spec::{ANGLE_LIMIT, Key, POSITION, Range, SHIFT_LIMIT, Value, 
 use crate::asset::strict::Ledger;
 use crate::asset::take::{angle_of, name_of, vector};
 use crate::geometry::{Footprint, Pose, Vector, clearance};
-use crate::scene::{DisjointSets, Joint, JointKind, Object, Span, WorldJoint};
+use crate::scene::{DisjointSets, Joint, JointKind, Object, Span};
 
 use super::bodies::{body, known_object};
 use super::world_joints;
@@ -37,7 +37,8 @@ const UNIT: f64 = 1e-12;
 /// Specification of a joint.
 pub(super) const JOINT: Value = Value::Map(KEYS);
 
-const KEYS: &[Key] = &[
+/// Keys of a joint.
+pub(in crate::asset) const KEYS: &[Key] = &[
     Key::required(
         "between",
         Value::List { of: &Value::Name, items: "object names", min: 2, max: 2 },
@@ -95,15 +96,8 @@ pub(in crate::asset) fn joint(node: &Node, objects: &[Object]) -> Option<Joint> 
     Some(Joint { between, kind: kind_of(node)?, guessed })
 }
 
-/// Returns the joint to the world; `None` if a required value is missing or faulty.
-pub(super) fn mount(joint: &Node, object: &Node, objects: &[Object]) -> Option<WorldJoint> {
-    let name = object.text()?;
-    let object = objects.iter().position(|object| object.name == name)?;
-    Some(WorldJoint { object, kind: kind_of(joint)? })
-}
-
 /// Returns the kind of a joint; `None` if a required value is missing or faulty.
-fn kind_of(node: &Node) -> Option<JointKind> {
+pub(super) fn kind_of(node: &Node) -> Option<JointKind> {
     Some(match node.get("kind")?.text()? {
         "fixed" => JointKind::Fixed,
         "revolute" => JointKind::Revolute {

@@ -30,7 +30,8 @@ pub(in crate::asset) const KEEP: Key = Key::optional(
         Key::optional(
             "within",
             SIZE,
-            "Largest displacement of a kept object, metres; default 0.005.",
+            "Largest displacement of any corner of a kept object at any time, metres; default \
+             0.005.",
         ),
     ]),
     "Objects that no plan may move; by default every object may be displaced, but none may topple \

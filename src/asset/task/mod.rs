@@ -25,7 +25,7 @@ mod world_joints;
 
 pub(super) use frictions::{FRICTIONS, name_of_surface};
 pub(super) use goals::emitted_goals;
-pub(super) use joints::joint as joint_of;
+pub(super) use joints::{KEYS as JOINT_KEYS, joint as joint_of};
 pub(super) use keep::emitted as region;
 pub(super) use levers::emitted_levers;
 pub use load::{load_task, parse_task};
@@ -36,4 +36,4 @@ pub(super) use part::shares as shares_of_mass;
 pub(super) use spec::{JOINTS, LIFT, PUSH_HEIGHT, TABLE, TASK, TASK_KEYS};
 pub(super) use support::{OBJECT_SUPPORT, emitted as emitted_support, support as support_of};
 pub(super) use tools::emitted_tools;
-pub(super) use world_joints::WORLD;
+pub(super) use world_joints::{WORLD, mount as mount_of};

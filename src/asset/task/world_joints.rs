@@ -4,6 +4,9 @@
 use crate::asset::node::Node;
 use crate::asset::strict::Ledger;
 use crate::asset::take::name_of;
+use crate::scene::{Object, WorldJoint};
+
+use super::joints::kind_of;
 
 /// Name of the world in place of one of a joint's objects.
 pub(in crate::asset) const WORLD: &str = "world";
@@ -25,6 +28,17 @@ pub(super) fn moving<'a>(
         [other, object] if fixed(other) && !fixed(object) => Some(object),
         _ => None,
     }
+}
+
+/// Returns the joint to the world; `None` if a required value is missing or faulty.
+pub(in crate::asset) fn mount(
+    joint: &Node,
+    object: &Node,
+    objects: &[Object],
+) -> Option<WorldJoint> {
+    let name = object.text()?;
+    let object = objects.iter().position(|object| object.name == name)?;
+    Some(WorldJoint::new(object, kind_of(joint)?))
 }
 
 /// Reports the faults that are specific to joints to the world.

@@ -7,13 +7,14 @@ use crate::asset::node::Node;
 use crate::asset::read_text;
 use crate::asset::strict::{Ledger, check};
 use crate::asset::take::{angle_of, name_of, number_or, position, unique_names};
-use crate::asset::task::{joint_of, support_of};
+use crate::asset::task::support_of;
 use crate::asset::text::Source;
 use crate::{
-    scene::{DisjointSets, Engine, Scene, Support, carries},
+    scene::{Engine, Scene, Support, carries},
     task::{Noise, Task, Truth},
 };
 
+use super::joints;
 use super::spec::WORLD;
 
 /// Reads a world file; missing values are taken from `task`.
@@ -49,10 +50,10 @@ fn items<'a>(root: &'a Node, key: &str) -> &'a [Node] {
 fn rules(root: &Node, task: &Task, ledger: &mut Ledger) {
     let objects = items(root, "objects");
     unique_names(objects, "objects", ledger);
-    let names = || task.scene.things().map(|(_, object)| object.name.as_str());
     let joints = items(root, "joints");
-    let between = joints.iter().filter_map(|joint| joint.get("between")).flat_map(Node::items);
-    for node in objects.iter().filter_map(|object| object.get("name")).chain(between) {
+    let names = || task.scene.things().map(|(_, object)| object.name.as_str());
+    let named = objects.iter().filter_map(|object| object.get("name"));
+    for node in named.chain(joints::names(joints, &task.scene)) {
         if let Some(name) = node.text().filter(|name| !names().any(|known| known == *name)) {
             let message = format!("the task has no object `{name}`");
             ledger.fault(node, message, did_you_mean(name, names()));
@@ -68,38 +69,7 @@ fn rules(root: &Node, task: &Task, ledger: &mut Ledger) {
             ledger.fault(node, message, "the points are in the object's own frame");
         }
     }
-    let mut sets = DisjointSets::new(task.scene.objects.len());
-    for joint in joints {
-        let kind = joint.get("kind").and_then(Node::text);
-        let needed = match kind {
-            Some("revolute") => Some("at"),
-            Some("prismatic") => Some("axis"),
-            _ => None,
-        };
-        if let Some(needed) = needed.filter(|needed| joint.get(needed).is_none()) {
-            let message = format!("a {} joint needs `{needed}`", kind.unwrap_or_default());
-            ledger.fault(joint, message, format!("add `{needed}: [x, y]`"));
-            continue;
-        }
-        let Some(read) = joint_of(joint, &task.scene.objects) else {
-            if joint.get("axis").is_some_and(|axis| !axis.items().is_empty()) && kind.is_some() {
-                let advice = "write a direction, such as [1, 0] for +x";
-                ledger.fault(joint, "this joint cannot be read", advice);
-            }
-            continue;
-        };
-        if read.between[0] == read.between[1] || !sets.join(read.between) {
-            let message = "this joint closes a loop, which the simulator does not support";
-            ledger.fault(joint, message, "remove one joint of the loop");
-        }
-        if read
-            .limits()
-            .is_some_and(|span| span.low > 0.0 || span.high < 0.0 || span.low >= span.high)
-        {
-            let advice = "limits are relative to the poses at the start: they must contain 0";
-            ledger.fault(joint, "the start violates these limits", advice);
-        }
-    }
+    joints::check(joints, &task.scene, ledger);
 }
 
 fn truth(root: &Node, task: &Task) -> Option<Truth> {
@@ -127,9 +97,7 @@ fn truth(root: &Node, task: &Task) -> Option<Truth> {
     }
     scene.table_friction = number_or(root, "table_friction", scene.table_friction)?;
     if root.get("joints").is_some() {
-        let joints = items(root, "joints").iter().map(|node| joint_of(node, &scene.objects));
-        let joints = joints.collect::<Option<Vec<_>>>()?;
-        scene.joints = scene.seams().chain(joints).collect();
+        joints::replace(items(root, "joints"), &mut scene)?;
     }
     let noise = match root.get("noise") {
         Some(noise) => Noise {

@@ -1,5 +1,6 @@
 //! World files: ground truth for the properties that a task leaves unknown.
 
+mod joints;
 mod load;
 mod spec;
 

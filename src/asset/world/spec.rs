@@ -1,7 +1,9 @@
 //! Specification of a world file.
 
 use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, POSITION, Range, Value};
-use crate::asset::task::{JOINTS, OBJECT_SUPPORT};
+use crate::asset::task::OBJECT_SUPPORT;
+
+use super::joints::JOINTS;
 
 /// Specification of a world file.
 pub(in crate::asset) static WORLD: Value = Value::Map(WORLD_KEYS);
@@ -11,8 +13,9 @@ pub(in crate::asset) const WORLD_KEYS: &[Key] = &[
     Key::optional(
         "joints",
         JOINTS,
-        "Joints between objects, as in a task, at the objects' poses in this file; by default the \
-         task's.",
+        "Joints, as in a task, at the objects' poses in this file; by default the task's. Joints \
+         between objects replace all of the task's, and a joint to the world the one of its \
+         object.",
     ),
     Key::optional(
         "objects",

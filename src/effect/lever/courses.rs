@@ -5,7 +5,8 @@ use std::sync::Arc;
 use crate::effect::Trust;
 use crate::geometry::Pose3;
 use crate::outcome::{
-    Frame, LEVER_FRAMES, LeverTrajectory, LeverWarning, Lift, Record, Trajectory, Warning,
+    Frame, LEVER_FRAMES, LeverTrajectory, LeverWarning, Lift, ObjectRules, Record, Trajectory,
+    Warning,
 };
 use crate::scene::{Joint, LeverScene, ModelSpec, PairFriction, Plate, Scene, Support, Surface};
 use crate::task::{Job, LeverJob, LeverMotion, LeverUp, Motion, lever_frame};
@@ -129,6 +130,7 @@ fn trajectory(
         LeverWarning::Moving => Warning::NotAtRest { waited: 0.0 },
         LeverWarning::Jammed => Warning::Strained,
     }));
-    found.warnings.extend(scene.strays(found.outcome(), 0.0));
+    let states = found.frames.iter().map(|frame| &frame.state);
+    found.warnings.extend(ObjectRules::of(scene).first_broken(states));
     found
 }

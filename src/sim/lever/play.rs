@@ -7,8 +7,8 @@ use crate::geometry::{Pose, Pose3, Vector};
 use crate::progress::Progress;
 use crate::{
     outcome::{
-        Ending, Frame, LEVER_FRAMES, LeverTrajectory, LeverWarning, Lift, Trajectory, Warning,
-        has_slipped,
+        Ending, Frame, LEVER_FRAMES, LeverTrajectory, LeverWarning, Lift, ObjectRules, Trajectory,
+        Warning, has_slipped,
     },
     scene::{Blade, GRAVITY, LeverScene, Plate, REST_SPEED, State},
     task::{LeverJob, LeverUp, Motion, Stroke, ToolMotion, lever_frame},
@@ -364,9 +364,9 @@ impl Game {
         if !is_finite || self.strained >= LASTING {
             self.trouble = Some(Warning::Strained);
         }
-        let scene = &self.scenery.scene;
-        if self.trouble.is_none() && (scene.table_top.is_some() || !scene.keep_out.is_empty()) {
-            self.trouble = scene.strays(&self.state(), 0.0);
+        let rules = ObjectRules::of(&self.scenery.scene);
+        if self.trouble.is_none() && !rules.is_empty() {
+            self.trouble = rules.broken(&self.state());
         }
         let due = self.film.as_ref().is_some_and(|film| {
             let last = film.frames.last().map(|(last, _)| last.time);

@@ -1,10 +1,12 @@
 //! Joints in the planar engine, between objects and to the world.
 
-use rapier2d_f64::prelude::{GenericJointBuilder, JointAxesMask, JointAxis, RigidBodyBuilder};
+use rapier2d_f64::prelude::{
+    GenericJointBuilder, JointAxesMask, JointAxis, MotorModel, RigidBodyBuilder,
+};
 
 use crate::geometry::Vector;
 use crate::scene::{JointKind, Physics, Scene};
-use crate::sim::joint_limits::{within, zero};
+use crate::sim::joint_limits::{spring, within, zero};
 
 use super::{PlanarWorld, to_rapier};
 
@@ -39,14 +41,21 @@ impl PlanarWorld {
             self.world.insert_impulse_joint(first, second, built);
         }
         for mount in &scene.mounts {
-            let Some((axes, free)) = form(&mount.kind) else { continue };
+            let (axes, free) = match form(&mount.kind) {
+                Some((axes, free)) => (axes, Some(free)),
+                None => (JointAxesMask::LOCKED_FIXED_AXES, None),
+            };
             let member = &self.objects[mount.object].0;
             let [world, own] = mount.frames(&scene.objects);
             let mut built = GenericJointBuilder::new(axes)
                 .local_frame1(to_rapier(&(world * zero(&mount.kind)), self.origin))
                 .local_frame2(to_rapier(&(member.local * own), Vector::zeros()));
-            if let Some(limits) = within(&mount.kind) {
+            if let (Some(free), Some(limits)) = (free, within(&mount.kind)) {
                 built = built.limits(free, limits);
+            }
+            if let (Some(free), Some((rest, stiffness, damping))) = (free, spring(mount)) {
+                built = built.motor_model(free, MotorModel::ForceBased);
+                built = built.motor_position(free, rest, stiffness, damping);
             }
             let fixed = self.world.insert_body(RigidBodyBuilder::fixed());
             self.world.insert_impulse_joint(fixed, self.bodies[member.body].handle, built);

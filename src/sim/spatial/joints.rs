@@ -3,13 +3,13 @@
 use std::f64::consts::FRAC_PI_2;
 
 use rapier3d_f64::prelude::{
-    GenericJointBuilder, JointAxesMask, JointAxis, PhysicsWorld, Pose3, RigidBodyBuilder,
-    RigidBodyHandle, Rotation,
+    GenericJointBuilder, JointAxesMask, JointAxis, MotorModel, PhysicsWorld, Pose3,
+    RigidBodyBuilder, RigidBodyHandle, Rotation,
 };
 
 use crate::geometry::Pose;
 use crate::scene::{Joint, JointKind, Scene};
-use crate::sim::joint_limits::{within, zero};
+use crate::sim::joint_limits::{spring, within, zero};
 
 use super::place::{LOCAL, to_rapier};
 
@@ -53,14 +53,14 @@ pub(in crate::sim) fn add_joints(
         }
         world.insert_impulse_joint(first.body, second.body, built);
     }
-    for mount in scene.mounts.iter().filter(|mount| mount.kind != JointKind::Fixed) {
+    for mount in &scene.mounts {
         let (axes, free, axis) = form(&mount.kind);
         let object = &objects[mount.object];
         // The vertical direction stays free, so that the object rests on the table and has
         // friction.
         let upwards = match mount.kind {
-            JointKind::Prismatic { .. } => JointAxesMask::LIN_Z,
-            _ => JointAxesMask::LIN_X,
+            JointKind::Fixed | JointKind::Prismatic { .. } => JointAxesMask::LIN_Z,
+            JointKind::Revolute { .. } => JointAxesMask::LIN_X,
         };
         let [fixed, own] = mount.frames(&scene.objects);
         let fixed = to_rapier(&(fixed * zero(&mount.kind)), frame, 0.0);
@@ -69,6 +69,10 @@ pub(in crate::sim) fn add_joints(
             .local_frame2(object.frame(own, axis));
         if let Some(limits) = within(&mount.kind) {
             built = built.limits(free, limits);
+        }
+        if let Some((rest, stiffness, damping)) = spring(mount) {
+            built = built.motor_model(free, MotorModel::ForceBased);
+            built = built.motor_position(free, rest, stiffness, damping);
         }
         let fixed = world.insert_body(RigidBodyBuilder::fixed());
         world.insert_impulse_joint(fixed, object.body, built);

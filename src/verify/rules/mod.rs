@@ -6,6 +6,7 @@
 
 mod book;
 mod clearance;
+mod hand;
 mod lever;
 mod playable;
 mod push;
@@ -13,6 +14,7 @@ mod reach;
 mod tools;
 
 pub use book::rule_violations;
+pub(super) use hand::hand_meets;
 pub(super) use playable::unplayable;
 
 /// Slack for rounding, metres and radians.

@@ -36,6 +36,17 @@ pub enum ActError {
         /// Number of observations taken.
         looks: usize,
     },
+    /// Two objects of equal shape are observed in each other's places before the first push, so
+    /// that the camera or the task may have confused them.
+    #[error(
+        "`{}` and `{}` look alike and are observed in each other's places, so it is not known \
+         which is which; state their positions in the task as they are observed",
+        .objects[0], .objects[1]
+    )]
+    Ambiguous {
+        /// Names of the objects.
+        objects: [String; 2],
+    },
     /// The trace belongs to another run or is damaged.
     #[error("the trace cannot be resumed: {0}")]
     Trace(String),

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use pushplan::geometry::Vector;
 use pushplan::{
     scene::{FRAME_TRAVEL, ObservedPose, Scene, State},
-    task::{Observation, Stroke, ToolMotion},
+    task::{Observation, Stroke, Task, ToolMotion},
 };
 
 use super::error::ActError;
@@ -206,22 +206,8 @@ impl Gatherer {
         look: &Look,
         gone: f64,
     ) -> Result<Vec<Option<ObservedPose>>, ActError> {
-        let (expected, found) = (self.last.len(), look.seen.len());
-        if expected != found {
-            return Err(ActError::Objects { expected, found });
-        }
+        let mut seen = self.readable(look)?;
         self.travelled.iter_mut().for_each(|travelled| *travelled += gone);
-        let mut seen = look.seen.clone();
-        for (object, sight) in seen.iter_mut().enumerate() {
-            let is_place = |sight: &ObservedPose| {
-                let heading = sight.heading.is_none_or(f64::is_finite);
-                heading && sight.position.iter().all(|x| x.is_finite())
-            };
-            if sight.is_some_and(|sight| !is_place(&sight)) {
-                *sight = None;
-                self.note(Note::Unreadable { object });
-            }
-        }
         self.change_back(&mut seen);
         for (object, sight) in seen.iter_mut().enumerate() {
             let Some(ObservedPose { position, .. }) = *sight else { continue };
@@ -235,6 +221,68 @@ impl Gatherer {
             }
         }
         Ok(seen)
+    }
+
+    /// Returns the observed poses; `None` for one with non-finite coordinates.
+    fn readable(&mut self, look: &Look) -> Result<Vec<Option<ObservedPose>>, ActError> {
+        let (expected, found) = (self.last.len(), look.seen.len());
+        if expected != found {
+            return Err(ActError::Objects { expected, found });
+        }
+        let mut seen = look.seen.clone();
+        for (object, sight) in seen.iter_mut().enumerate() {
+            let is_place = |sight: &ObservedPose| {
+                let heading = sight.heading.is_none_or(f64::is_finite);
+                heading && sight.position.iter().all(|x| x.is_finite())
+            };
+            if sight.is_some_and(|sight| !is_place(&sight)) {
+                *sight = None;
+                self.note(Note::Unreadable { object });
+            }
+        }
+        Ok(seen)
+    }
+
+    /// Returns the poses of the first observation. Its names and positions override the ones in
+    /// the task.
+    ///
+    /// # Errors
+    /// [`ActError::Objects`] if the observation has another number of objects.
+    pub fn first(&mut self, look: &Look) -> Result<Vec<Option<ObservedPose>>, ActError> {
+        let seen = self.readable(look)?;
+        for (object, sight) in seen.iter().enumerate() {
+            if sight.is_some_and(|sight| (sight.position - self.last[object]).norm() > SLIDE) {
+                self.note(Note::Elsewhere { object });
+            }
+        }
+        Ok(seen)
+    }
+
+    /// Returns two objects that cannot be told apart and are observed in each other's places,
+    /// although the task treats them differently.
+    pub fn exchanged(&self, task: &Task, seen: &[Option<ObservedPose>]) -> Option<[usize; 2]> {
+        let scene = &task.scene;
+        let special = |k: usize| {
+            let goal = task.goals.iter().position(|goal| goal.movers().contains(&k));
+            (goal, scene.objects[k].keep.is_some())
+        };
+        let alike = |a: usize, b: usize| {
+            let [one, other] = [a, b].map(|k| &scene.objects[k]);
+            let parts = |k: usize| scene.parts_of(k).map(|part| scene.objects[part].shape);
+            one.shape == other.shape && one.color == other.color && parts(a).eq(parts(b))
+        };
+        let things: Vec<usize> = scene.things().map(|(k, _)| k).collect();
+        let pairs = things.iter().flat_map(|&a| things.iter().map(move |&b| [a, b]));
+        let mut pairs = pairs.filter(|[a, b]| a < b && special(*a) != special(*b));
+        pairs.find(|&[a, b]| {
+            let off = |sight: usize, place: usize| {
+                let sight = seen.get(sight).copied().flatten();
+                sight.map_or(0.0, |sight| (sight.position - self.last[place]).norm())
+            };
+            let both = [a, b].iter().all(|&k| seen.get(k).is_some_and(Option::is_some));
+            let apart = off(a, a).min(off(b, b)) > APART;
+            both && alike(a, b) && apart && off(a, b).max(off(b, a)) < THERE
+        })
     }
 
     /// Adds a note unless it is already present.

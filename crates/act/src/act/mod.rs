@@ -35,7 +35,9 @@
 //! | late, out of order | sorted by time within one motion |
 //! | from before the motion, or without a finite time | discarded |
 //! | NaN or infinity | treated as not observed |
-//! | two objects confused | swapped back |
+//! | two objects confused during a push | swapped back |
+//! | like objects in each other's places at first | [`ActError::Ambiguous`] |
+//! | a rule for objects is broken | [`End::RuleBroken`] |
 //! | an object far from any possible position | discarded unless a second observation agrees |
 //! | another number of objects | [`ActError::Objects`] |
 //!
@@ -49,6 +51,7 @@ mod gather;
 mod judge;
 mod learning;
 mod probe;
+mod rules;
 mod runner;
 mod settings;
 mod simulated;

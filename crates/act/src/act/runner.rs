@@ -9,7 +9,7 @@ use pushplan::geometry::Pose;
 use pushplan::progress::Progress;
 use pushplan::solve::{Planner, SolveError};
 use pushplan::{
-    outcome::{Record, Trajectory},
+    outcome::{Record, Trajectory, Warning},
     scene::{ObservedPose, Scene, Situation, State, TableFit, Tool},
     task::{Goal, Job, Observation, Plan, Push, PushForm},
 };
@@ -19,6 +19,7 @@ use super::error::ActError;
 use super::gather::{Gatherer, Note};
 use super::judge::{Chance, Samples};
 use super::learning::Learner;
+use super::rules::{broken_at_rest, broken_in};
 use super::trace::{End, Step, Trace, Why};
 use super::world::{Look, World};
 
@@ -91,6 +92,7 @@ impl<'a> Runner<'a> {
             trace.pairs = belief.pairs().collect();
             trace.prior = belief.probabilities();
             trace.prior_numbers = belief.numbers();
+            trace.stop_at(broken_at_rest(&belief, trace.settings.noise));
             keep(trace)?;
         }
         let (mut belief, _) = self.begin(trace)?;
@@ -124,8 +126,10 @@ impl<'a> Runner<'a> {
                     trace.end = Some(End::BudgetExhausted);
                 }
                 Decision::Do { why, plan, tool, chance } => {
-                    let step = now.step(trace, &mut belief, world, (why, plan, tool, chance))?;
+                    let decided = (why, plan, tool, chance);
+                    let (step, broken) = now.step(trace, &mut belief, world, decided)?;
                     trace.steps.push(step);
+                    trace.stop_at(broken);
                     learnt = self.learnt(trace, &start)?;
                     progress.update(trace.steps.len() as u64, trace.settings.max_pushes as u64);
                 }
@@ -158,15 +162,10 @@ impl<'a> Runner<'a> {
         let look = first
             .as_ref()
             .ok_or_else(|| ActError::Trace("the first observation is missing".into()))?;
-        let mut seen = gatherer.sights(look, 0.0)?;
-        let mut notes = std::mem::take(&mut gatherer.notes);
-        // The observation overrides the positions in the task.
-        for (object, (sight, looked)) in seen.iter_mut().zip(&look.seen).enumerate() {
-            if sight.is_none() && looked.is_some_and(|one| one.position.norm().is_finite()) {
-                *sight = *looked;
-                notes.retain(|note| *note != Note::Jumped { object });
-                notes.push(Note::Elsewhere { object });
-            }
+        let seen = gatherer.first(look)?;
+        if let Some(pair) = gatherer.exchanged(task, &seen) {
+            let objects = pair.map(|object| task.scene.objects[object].name.clone());
+            return Err(ActError::Ambiguous { objects });
         }
         let poses = seen.iter().zip(&stated.poses).map(|(sight, stated)| match sight {
             Some(ObservedPose { position, heading }) => Pose {
@@ -176,7 +175,9 @@ impl<'a> Runner<'a> {
             None => *stated,
         });
         let start = State::at_rest(poses.collect());
-        let scene = seen_at(&task.scene, &start);
+        let mut scene = seen_at(&task.scene, &start);
+        // Displacements before the first observation do not count.
+        scene.objects.iter_mut().for_each(|object| object.kept_from = None);
         let tools = task.tools(self.library).map_err(SolveError::from)?;
         let tool = tools.first().ok_or_else(|| ActError::Trace("its task has no tool".into()))?;
         let belief_settings = BeliefSettings::new(settings.noise);
@@ -186,7 +187,7 @@ impl<'a> Runner<'a> {
             Some(regulator) => belief.regulated(regulator.clone()),
             None => belief,
         };
-        Ok((belief, notes))
+        Ok((belief, gatherer.notes))
     }
 
     /// Returns the next decision.
@@ -209,14 +210,14 @@ impl<'a> Runner<'a> {
     }
 
     /// Carries out the first push of a plan, or all pushes of a chained plan, and updates the
-    /// belief.
+    /// belief. Returns the step with the first rule that it broke.
     fn step(
         &self,
         trace: &Trace,
         belief: &mut Belief,
         world: &mut dyn World,
         (why, plan, tool, chance): (Why, Plan, Arc<Tool>, Chance),
-    ) -> Result<Step, ActError> {
+    ) -> Result<(Step, Option<Warning>), ActError> {
         let task = &trace.task;
         let pushes = match plan.form() {
             PushForm::Placed => 1.min(plan.pushes().len()),
@@ -242,8 +243,11 @@ impl<'a> Runner<'a> {
             Ok(look)
         };
         let observations = rests(trace, &mut gatherer, seen, &mut look)?;
+        let noise = trace.settings.noise;
+        let broken = broken_in(&belief.situation(), noise, &observations);
         self.believe(belief, (&tool, plan.lift()), observations);
-        Ok(Step {
+        let broken = broken.or_else(|| broken_at_rest(belief, noise));
+        let step = Step {
             why,
             pushes,
             chance,
@@ -259,7 +263,8 @@ impl<'a> Runner<'a> {
             probabilities: belief.probabilities(),
             numbers: belief.numbers(),
             world: world.save(),
-        })
+        };
+        Ok((step, broken))
     }
 
     /// Repeats the belief update of a recorded step.

@@ -4,21 +4,26 @@ use std::sync::Arc;
 
 use crate::belief::{Belief, BeliefSettings, generator, normal};
 use pushplan::asset::{Faults, ToolLibrary};
-use pushplan::geometry::Vector;
+use pushplan::geometry::{Pose, Vector};
 use pushplan::sim::{Arm, Simulator};
 use pushplan::{
     outcome::{Record, Trajectory, Warning},
-    scene::{ObservedPose, Physics, Rate, State},
+    scene::{ObservedPose, Physics, Rate, Scene, State},
     task::{COAST_FRAME, Job, Stroke, Task, ToolMotion, Truth},
 };
 
 use super::trace::{Step, Trace};
 use super::world::{Look, Stop, World, WorldError, WorldState};
 
+/// Coordinates of a tool that is lifted, metres: out of the way of everything.
+const ASIDE: f64 = 100.0;
+
 /// World simulated in one of the engines.
 #[derive(Clone, Debug)]
 pub struct SimulatedWorld {
     truth: Truth,
+    /// True scene without rules, because nothing in the world enforces them.
+    scene: Scene,
     simulator: Simulator,
     state: State,
     looks: u64,
@@ -31,7 +36,8 @@ impl SimulatedWorld {
     pub fn new(truth: Truth) -> Self {
         let simulator = Simulator::new(truth.engine, Rate::DEFAULT).retreating();
         let (state, arm) = (truth.scene.start(), Arm::default());
-        Self { state, simulator, looks: 0, truth, arm, stop: None }
+        let scene = without_rules(&truth.scene);
+        Self { state, simulator, looks: 0, scene, truth, arm, stop: None }
     }
 
     /// Limits the force of the robot's arm to `max_force` newtons; `None` removes the limit.
@@ -42,6 +48,20 @@ impl SimulatedWorld {
     /// Returns the true state.
     pub fn state(&self) -> &State {
         &self.state
+    }
+
+    /// Lets springs move their objects once the tool is lifted; returns the time that this takes,
+    /// seconds, or `None` without springs.
+    fn release(&mut self, motion: &ToolMotion) -> Option<f64> {
+        self.scene.mounts.iter().find(|mount| mount.spring > 0.0)?;
+        let from = Pose { position: Vector::repeat(ASIDE), heading: 0.0 };
+        let waiting = Stroke { from, to: from, duration: 2.0 * COAST_FRAME, settle: true };
+        let motion = ToolMotion { strokes: vec![waiting], ..motion.clone() };
+        let physics = Physics::stated(&self.scene).into();
+        let job = Job { start: self.state.clone(), motion: motion.into(), physics };
+        let run = self.simulator.run(&self.scene, &job, Record::Outcome);
+        self.state = State::at_rest(run.outcome().poses.clone());
+        run.frames.last().map(|frame| frame.time)
     }
 
     /// Returns a noisy observation of a state.
@@ -67,9 +87,9 @@ impl World for SimulatedWorld {
     }
 
     fn act(&mut self, motion: &ToolMotion) -> Result<Vec<Look>, WorldError> {
-        let physics = Physics::stated(&self.truth.scene).into();
+        let physics = Physics::stated(&self.scene).into();
         let job = Job { start: self.state.clone(), motion: motion.clone().into(), physics };
-        let run = self.simulator.run_by(&self.arm, &self.truth.scene, &job, Record::Frames);
+        let run = self.simulator.run_by(&self.arm, &self.scene, &job, Record::Frames);
         if let Some(warning) = run.warnings.iter().find(|warning| ends(warning)) {
             return Err(WorldError(format!("the simulated world cannot continue: {warning}")));
         }
@@ -85,6 +105,10 @@ impl World for SimulatedWorld {
             looks.push(self.see(last.time + COAST_FRAME, &state));
         }
         self.stop = stop;
+        if let Some(waited) = self.release(motion) {
+            let state = self.state.clone();
+            looks.push(self.see(last.time + COAST_FRAME + waited, &state));
+        }
         Ok(looks)
     }
 
@@ -140,19 +164,23 @@ fn stop(motion: &ToolMotion, run: &Trajectory) -> (Option<Stop>, usize) {
 /// empty vector if the world was not simulated.
 pub fn really(trace: &Trace) -> Vec<Trajectory> {
     let (Some(truth), Some(before)) = (&trace.truth, &trace.before) else { return Vec::new() };
-    let physics = Arc::new(Physics::stated(&truth.scene));
+    let scene = without_rules(&truth.scene);
+    let physics = Arc::new(Physics::stated(&scene));
     let simulator = Simulator::new(truth.engine, Rate::DEFAULT).retreating();
     let begins = trace.steps.iter().filter_map(|step| step.world.as_ref());
     let begins = std::iter::once(before).chain(begins);
     let replay = |(begin, step): (&WorldState, &Step)| {
         let (start, physics) = (begin.state.clone(), Arc::clone(&physics));
-        simulator.run(
-            &truth.scene,
-            &Job { start, motion: step.motion().into(), physics },
-            Record::Frames,
-        )
+        simulator.run(&scene, &Job { start, motion: step.motion().into(), physics }, Record::Frames)
     };
     begins.zip(&trace.steps).map(replay).collect()
+}
+
+/// Returns the scene without `keep` and `keep_out`. The runner checks them on its observations.
+fn without_rules(scene: &Scene) -> Scene {
+    let mut scene = Scene { keep_out: Vec::new(), ..scene.clone() };
+    scene.objects.iter_mut().for_each(|object| object.keep = None);
+    scene
 }
 
 /// Returns `true` if the run cannot continue after a replay with this warning.

@@ -9,7 +9,7 @@ use crate::belief::Numbers;
 use pushplan::asset::{Faults, write_atomic};
 use pushplan::geometry::Pose;
 use pushplan::{
-    outcome::Frame,
+    outcome::{Frame, Warning},
     scene::{State, TableFit, Tool},
     task::{Plan, Task, ToolMotion, Truth},
 };
@@ -59,6 +59,9 @@ pub struct Trace {
     pub learnt: Option<TableFit>,
     /// Reason for the end of the run; `None` while it continues.
     pub end: Option<End>,
+    /// Rule that the objects break according to the last observations, with [`End::RuleBroken`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub broken: Option<Warning>,
 }
 
 /// Kind of file.
@@ -132,6 +135,8 @@ pub enum End {
     BudgetExhausted,
     /// No push brings the object nearer to the goal.
     NoImprovingPush,
+    /// An object breaks a rule of the task according to the observations: see [`Trace::broken`].
+    RuleBroken,
 }
 
 impl Step {
@@ -164,6 +169,15 @@ impl Trace {
             steps: Vec::new(),
             learnt: None,
             end: None,
+            broken: None,
+        }
+    }
+
+    /// Ends the run if a rule is broken.
+    pub(super) fn stop_at(&mut self, broken: Option<Warning>) {
+        if broken.is_some() {
+            self.end = Some(End::RuleBroken);
+            self.broken = broken;
         }
     }
 

@@ -60,7 +60,7 @@ pub(super) fn mounts(model: &Model, drafts: &[Draft<'_>], ledger: &mut Ledger) -
         if !hangs || *motion == Motion::Free || motion.is_planar() {
             continue;
         }
-        found.extend(kind(motion, name, *place, ledger).map(|kind| WorldJoint { object, kind }));
+        found.extend(kind(motion, name, *place, ledger).map(|kind| WorldJoint::new(object, kind)));
     }
     found
 }

@@ -187,6 +187,7 @@ fn rows(runs: &[ClosedRun]) -> Table {
             Some(End::Reached) => "reached",
             Some(End::BudgetExhausted) => "used up",
             Some(End::NoImprovingPush) => "no push",
+            Some(End::RuleBroken) => "rule broken",
             None => "broken off",
         };
         let mut cells = vec![

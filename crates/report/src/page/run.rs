@@ -39,7 +39,9 @@ pub fn run_page(trace: &Trace, real: &[Trajectory], recipe: Recipe, view: PageVi
         name: name(trace),
         standing: match trace.end {
             Some(End::Reached) => Standing::Reached,
-            Some(End::BudgetExhausted | End::NoImprovingPush) => Standing::GivenUp,
+            Some(End::BudgetExhausted | End::NoImprovingPush | End::RuleBroken) => {
+                Standing::GivenUp
+            }
             None => Standing::Open,
         },
         verdict: headline(trace),

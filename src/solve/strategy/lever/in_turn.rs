@@ -105,7 +105,11 @@ impl<'a> InTurn<'a> {
     ) -> Result<Option<Prefix>, SolveError> {
         let mut task = Task { goals: goals.to_vec(), ..board.query.task.clone() };
         for &object in met {
-            task.scene.objects[object].keep.get_or_insert(KEPT);
+            let own = &mut task.scene.objects[object];
+            if own.keep.is_none() {
+                own.keep = Some(KEPT);
+                own.kept_from = rests.get(object).map(Pose3::from_above);
+            }
         }
         match pushing_task(&task, rests, self.library) {
             Some(left) => solved(board, &left, self.library),
