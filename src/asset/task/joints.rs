@@ -7,11 +7,12 @@
 use crate::asset::node::Node;
 use crate::asset::spec::{ANGLE_LIMIT, Key, POSITION, Range, SHIFT_LIMIT, Value, numbers};
 use crate::asset::strict::Ledger;
-use crate::asset::take::{angle_of, name_of, vector};
-use crate::geometry::{Footprint, Pose, Vector, clearance};
-use crate::scene::{DisjointSets, Joint, JointKind, Object, Span};
+use crate::asset::take::{name_of, vector};
+use crate::geometry::{Footprint, Pose, clearance};
+use crate::scene::{DisjointSets, Joint, Object};
 
 use super::bodies::{body, known_object};
+use super::joint_kind::{kind_of, unit};
 use super::world_joints;
 
 /// Maximum number of objects in one jointed group.
@@ -29,10 +30,6 @@ const FEW: usize = 3;
 
 /// Maximum gap between jointed objects, metres.
 const FAR: f64 = 0.5;
-
-/// Tolerance of the squared length of a unit vector. A vector within it is not normalised again, so
-/// that repeated reading and writing keeps the same bits.
-const UNIT: f64 = 1e-12;
 
 /// Specification of a joint.
 pub(super) const JOINT: Value = Value::Map(KEYS);
@@ -94,38 +91,6 @@ pub(in crate::asset) fn joint(node: &Node, objects: &[Object]) -> Option<Joint> 
     };
     let guessed = node.get("guessed").is_some_and(|node| node.switch() == Some(true));
     Some(Joint { between, kind: kind_of(node)?, guessed })
-}
-
-/// Returns the kind of a joint; `None` if a required value is missing or faulty.
-pub(super) fn kind_of(node: &Node) -> Option<JointKind> {
-    Some(match node.get("kind")?.text()? {
-        "fixed" => JointKind::Fixed,
-        "revolute" => JointKind::Revolute {
-            at: vector(node.get("at")?)?,
-            limits: limits(node, "limits_deg", angle_of)?,
-        },
-        _ => JointKind::Prismatic {
-            axis: unit(vector(node.get("axis")?)?)?,
-            limits: limits(node, "limits", Node::number)?,
-        },
-    })
-}
-
-/// Returns the limits: `Some(None)` if there are none, `None` if they are faulty.
-fn limits(node: &Node, key: &str, read: fn(&Node) -> Option<f64>) -> Option<Option<Span>> {
-    match node.get(key).map(Node::items) {
-        None => Some(None),
-        Some([low, high]) => Some(Some(Span::new(read(low)?, read(high)?))),
-        Some(_) => None,
-    }
-}
-
-/// Returns `axis` normalised; `None` if it has length zero.
-fn unit(axis: Vector) -> Option<Vector> {
-    if (axis.norm_squared() - 1.0).abs() <= UNIT {
-        return Some(axis);
-    }
-    axis.try_normalize(0.0)
 }
 
 /// Reports every fault of the joints.

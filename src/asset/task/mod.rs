@@ -7,6 +7,7 @@ mod emit;
 mod frictions;
 mod goal_rules;
 mod goals;
+mod joint_kind;
 mod joints;
 mod keep;
 mod levers;

@@ -6,7 +6,7 @@ use crate::asset::strict::Ledger;
 use crate::asset::take::name_of;
 use crate::scene::{Object, WorldJoint};
 
-use super::joints::kind_of;
+use super::joint_kind::kind_of;
 
 /// Name of the world in place of one of a joint's objects.
 pub(in crate::asset) const WORLD: &str = "world";
