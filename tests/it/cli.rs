@@ -27,7 +27,7 @@ fn the_help_explains_every_exit_code() {
         .lines()
         .filter_map(|line| line.trim_start().split_once("  ")?.0.parse().ok())
         .collect();
-    assert_eq!(listed, [0, 1, 2, 3, 4, 5, 6, 7, 8, 130]);
+    assert_eq!(listed, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 130]);
 }
 
 #[test]

@@ -168,6 +168,7 @@ scene:
     - {name: fan, shape: {cuboid: {size: [0.03, 0.26, 0.07]}}, mass: 0.3, friction: 0.1, position: [0.58, 0]}
   joints: [{between: [fan, world], kind: revolute, at: [0.58, 0]}]
 robot: {reach: {min: 0.05, max: 0.95}}
+tools: [finger, stick]
 pushes: {max_count: 2, length: 0.3, directions: 8}
 goal: {object: can, position: [0.68, 0.09], tolerance: 0.02}
 ";

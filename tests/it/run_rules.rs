@@ -103,7 +103,7 @@ fn a_goal_that_is_reached_off_the_table_does_not_excuse_a_broken_rule() {
 
 #[test]
 fn a_run_stops_if_an_object_is_seen_in_a_region_to_keep_out_of() {
-    let region = "keep_out: [{name: spill, area: {circle: {radius: 0.05}}, position: [0.64, 0.12], for: [objects]}]";
+    let region = "keep_out: [{name: spill, area: {circle: {radius: 0.05}}, position: [0.60, 0.12], for: [objects]}]";
     let text = KEPT.replace("keep: {objects: [vase]}", region);
     // The vase is carried into the region by the can.
     let (ended, trace, _) = run_in(&task(&text), JOINED);
@@ -111,7 +111,7 @@ fn a_run_stops_if_an_object_is_seen_in_a_region_to_keep_out_of() {
     assert_eq!(trace.end, Some(End::RuleBroken));
     assert!(matches!(&trace.broken, Some(Warning::KeptOut { object, .. }) if object == "vase"));
     // There from the start.
-    let there = "objects: [{name: vase, position: [0.64, 0.12]}]";
+    let there = "objects: [{name: vase, position: [0.60, 0.12]}]";
     let (_, trace, _) = run_in(&task(&text), there);
     assert_eq!((trace.end, trace.steps.len()), (Some(End::RuleBroken), 0));
 }
