@@ -24,7 +24,7 @@ unknown: [masses, frictions]
 keep: {objects: [vase]}
 ";
 
-/// World in which the vase hangs on the can.
+/// World in which the vase is attached to the can.
 const JOINED: &str = "
 joints: [{between: [can, vase], kind: fixed}]
 noise: {position: 0.0005, heading_deg: 0.2}
@@ -105,7 +105,7 @@ fn a_goal_that_is_reached_off_the_table_does_not_excuse_a_broken_rule() {
 fn a_run_stops_if_an_object_is_seen_in_a_region_to_keep_out_of() {
     let region = "keep_out: [{name: spill, area: {circle: {radius: 0.05}}, position: [0.60, 0.12], for: [objects]}]";
     let text = KEPT.replace("keep: {objects: [vase]}", region);
-    // The pair rotates, because the vase hangs on one side, and the can enters the region.
+    // The pair rotates, because the vase is attached to one side, and the can enters the region.
     let (ended, trace, _) = run_in(&task(&text), JOINED);
     ended.expect("it stops and is no error");
     assert_eq!(trace.end, Some(End::RuleBroken));
