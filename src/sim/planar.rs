@@ -147,8 +147,8 @@ impl World for PlanarWorld {
             let body = &mut self.world.bodies[tracked.handle];
             let velocity = velocity(body);
             let inertia = Inertia {
-                mass: body.mass().into(),
-                spin: body.mass_properties().local_mprops.principal_inertia().into(),
+                mass: body.mass(),
+                spin: body.mass_properties().local_mprops.principal_inertia(),
             };
             let pressed = tracked.pressed.look(&inertia, &velocity, dt);
             let pressing = tracked.pressed.share(pressed.linear);
@@ -184,7 +184,7 @@ impl World for PlanarWorld {
             let tracked = &self.bodies[member.body];
             let body = &self.world.bodies[tracked.handle];
             let moved = body.translation() - tracked.first_position;
-            let moved = Vector::new(moved.x.into(), moved.y.into());
+            let moved = Vector::new(moved.x, moved.y);
             state.poses.push(member.pose(moved, tracked.turned));
             let Twist { linear, angular } = velocity(body);
             let velocity = Velocity { linear, angular };
@@ -223,7 +223,7 @@ impl World for PlanarWorld {
             if let Some((depth, manifold)) = deepest.filter(|(depth, _)| *depth > 0.0) {
                 let between = (self.label(pair.collider1), self.label(pair.collider2));
                 let normal = manifold.data.normal;
-                let normal = Vector::new(normal.x.into(), normal.y.into());
+                let normal = Vector::new(normal.x, normal.y);
                 overlap(between, depth, normal, found);
             }
         }
@@ -243,7 +243,7 @@ impl World for PlanarWorld {
             }
         }
         let settings = &self.world.integration_parameters;
-        force(impulse.length().into(), settings.dt.into(), settings.num_solver_iterations)
+        force(impulse.length(), settings.dt, settings.num_solver_iterations)
     }
 }
 
@@ -286,7 +286,7 @@ impl PlanarWorld {
         self.bodies.push(Tracked {
             handle,
             first_position: self.world.bodies[handle].translation(),
-            last_angle: self.world.bodies[handle].rotation().angle().into(),
+            last_angle: self.world.bodies[handle].rotation().angle(),
             turned: 0.0,
             pressed: Pressed::default(),
             objects: group.objects.clone(),
@@ -382,8 +382,8 @@ fn groups(own: Layer, meets: Layer) -> InteractionGroups {
 
 fn velocity(body: &RigidBody) -> Twist {
     let linear = body.linvel();
-    let linear = Vector::new(linear.x.into(), linear.y.into());
-    Twist { linear, angular: body.angvel().into() }
+    let linear = Vector::new(linear.x, linear.y);
+    Twist { linear, angular: body.angvel() }
 }
 
 fn to_rapier(pose: &Pose, origin: Vector) -> RapierPose {

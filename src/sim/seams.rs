@@ -137,7 +137,7 @@ impl planar::PhysicsHooks for Seams {
         if let Some(friction) = self.friction(first, second) {
             contacts.iter_mut().for_each(|contact| contact.friction = friction);
         }
-        let vector = |v: planar::Vector| Vector::new(v.x.into(), v.y.into());
+        let vector = |v: planar::Vector| Vector::new(v.x, v.y);
         if let Some(rim) = self.rim(first) {
             contacts.retain(|contact| {
                 let point = manifold.points[contact.contact_id[0] as usize].local_p1;
