@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+import sys
 from pathlib import Path
 from typing import Any, Callable
 
@@ -36,12 +37,18 @@ def learn() -> Callable[..., subprocess.CompletedProcess[str]]:
     return runner(os.environ.get("PUSHPLAN_LEARN", str(ROOT / "target/release/pushplan-learn")))
 
 
-def runner(program: str) -> Callable[..., subprocess.CompletedProcess[str]]:
+@pytest.fixture
+def installed() -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Runs the command of the installed package, which also writes MCAP."""
+    return runner(sys.executable, "-m", "pushplan")
+
+
+def runner(*program: str) -> Callable[..., subprocess.CompletedProcess[str]]:
     """Runs a program in the checkout."""
 
     def run(*words: Any) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
-            [program, *map(str, words)], cwd=ROOT, text=True, capture_output=True, check=False
+            [*program, *map(str, words)], cwd=ROOT, text=True, capture_output=True, check=False
         )
 
     return run

@@ -231,10 +231,10 @@ def test_a_recording_is_read_by_mcap(task: pushplan.Task, tmp_path: Path) -> Non
 
 
 def test_the_command_writes_the_same_recording(
-    task: pushplan.Task, tmp_path: Path, command: Callable[..., Any]
+    task: pushplan.Task, tmp_path: Path, installed: Callable[..., Any]
 ) -> None:
     plan(task).save(tmp_path / "p.plan.json")
-    made = command(
+    made = installed(
         "export",
         tmp_path / "p.plan.json",
         "--format",
