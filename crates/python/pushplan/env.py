@@ -261,13 +261,8 @@ class PushEnv(_TableEnv):
         usual = self.task.push_length
         half = math.remainder(direction, 2.0 * math.pi) / math.pi
         longer = 0.0 if length is None else 2.0 * (length / usual - 1.0)
-        numbers = [
-            _share(names.index(tool), len(names)),
-            _share(nearest, len(yaws)),
-            half,
-            offset / self.most_offset,
-            longer,
-        ]
+        which, grip = _share(names.index(tool), len(names)), _share(nearest, len(yaws))
+        numbers = [which, grip, half, offset / self.most_offset, longer]
         if not all(-1.0 <= number <= 1.0 for number in numbers):
             raise ValueError(
                 f"`offset` must be {-self.most_offset:g} to {self.most_offset:g} m and `length` "
@@ -291,12 +286,8 @@ class PushEnv(_TableEnv):
     def _plan(self, action: _Action) -> Plan:
         tool, grip, half, offset, longer = (float(number) for number in np.clip(action, -1.0, 1.0))
         yaws = self.task.grip_yaws
-        push = Push.before(
-            self._target(),
-            math.pi * half,
-            offset * self.most_offset,
-            self.task.push_length * (1.0 + 0.5 * longer),
-        )
+        length = self.task.push_length * (1.0 + 0.5 * longer)
+        push = Push.before(self._target(), math.pi * half, offset * self.most_offset, length)
         yaw = yaws[_index(grip, len(yaws))]
         chosen = self.tools[_index(tool, len(self.tools))]
         return Plan.of(self.task.at(self._poses), chosen, [push], grip_yaw=yaw)

@@ -28,7 +28,6 @@ from __future__ import annotations
 import csv
 import json
 import math
-import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
@@ -37,24 +36,15 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _bags
+from ._log_checks import PUSHER, STILL, check_gaps, check_length, check_stale, check_times, degrees
 from ._native import Recording
 
 __all__ = ["read_csv", "read_mcap", "write_json"]
 
 _LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254}
 _TIMES = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
-_PUSHER = "pusher"
-#: Maximum distance of an object on a table from its first pose, metres.
-_FAR = 5.0
-#: Displacement below which an object did not move in a whole log, metres.
-_STILL = 2e-3
-#: Factor relative to the usual time step above which a step is a gap.
-_GAP = 2.5
 #: Half width of the interval for fitting velocities at the cut of a log, seconds.
 _NEAR = 0.05
-#: Duration for which a pose may be identical bit for bit before it is stale, if the object moves
-#: before and after, seconds.
-_STALE = 0.25
 
 _Floats = npt.NDArray[np.float64]
 
@@ -164,7 +154,7 @@ def read_mcap(
         return Recording.from_dict(_bags.own(path))
     if scene is None or pusher is None:
         raise ValueError("a ROS 2 bag contains only poses: set `scene` and `pusher`")
-    names = [_PUSHER, *(str(thing["name"]) for thing in scene["objects"])]
+    names = [PUSHER, *(str(thing["name"]) for thing in scene["objects"])]
     if set(topics) != set(names):
         raise ValueError(
             f"`topics` must have the keys {', '.join(names)}, found {', '.join(topics)}"
@@ -174,7 +164,7 @@ def read_mcap(
         max(times[0] for times, _ in seen.values()),
         min(times[-1] for times, _ in seen.values()),
     )
-    stamps = seen[_PUSHER][0]
+    stamps = seen[PUSHER][0]
     stamps = stamps[(stamps >= first) & (stamps <= last)]
     if len(stamps) < 2:
         raise ValueError(
@@ -217,7 +207,7 @@ def _mapping(
             f"{'/'.join(_TIMES)}, "
             f"found {length}, {angle} and {clock}"
         )
-    names = [_PUSHER, *(str(thing["name"]) for thing in scene["objects"])]
+    names = [PUSHER, *(str(thing["name"]) for thing in scene["objects"])]
     if set(poses) != set(names):
         raise ValueError(f"`poses` must have the keys {', '.join(names)}, found {', '.join(poses)}")
     wanted = [time, *(column for name in names for column in poses[name])]
@@ -231,7 +221,7 @@ def _mapping(
         raw = np.stack([table[column] for column in columns], axis=1)
         place = raw[:, :2] * _LENGTHS[length]
         if len(columns) == 3:
-            place = np.column_stack([place, _degrees(path, name, raw[:, 2], angle)])
+            place = np.column_stack([place, degrees(path, name, raw[:, 2], angle)])
         bodies[name] = place
     return _recorded(path, (scene, pusher), (times - times[0], lines), bodies, length, cut)
 
@@ -246,7 +236,7 @@ def _recorded(
 ) -> dict[str, Any]:
     """Returns the recording of poses in metres and degrees, with their times and line numbers."""
     times, lines = clock
-    _check_times(path, times, lines)
+    check_times(path, times, lines)
     begin, stop = cut[0] or 0.0, math.inf if cut[1] is None else cut[1]
     kept = (times >= begin) & (times <= stop)
     if kept.sum() < 2:
@@ -258,19 +248,19 @@ def _recorded(
     }
     bodies = {name: place[kept] for name, place in bodies.items()}
     for name, place in bodies.items():
-        _check_length(path, name, place[:, :2], length)
+        check_length(path, name, place[:, :2], length)
     times, lines = times[kept], lines[kept]
-    _check_gaps(path, times, lines, bodies)
-    _check_stale(path, times, lines, bodies)
+    check_gaps(path, times, lines, bodies)
+    check_stale(path, times, lines, bodies)
     moved = max(float(np.ptp(place[:, :2], axis=0).max()) for place in bodies.values())
-    if moved < _STILL:
+    if moved < STILL:
         raise ValueError(
             f"{path}: nothing moves by more than {1e3 * moved:.3f} mm; check `length`, here "
             f"`{length}`"
         )
-    objects = [place for name, place in bodies.items() if name != _PUSHER]
+    objects = [place for name, place in bodies.items() if name != PUSHER]
     frames = [
-        {"pusher": bodies[_PUSHER][k].tolist(), "objects": [place[k].tolist() for place in objects]}
+        {"pusher": bodies[PUSHER][k].tolist(), "objects": [place[k].tolist() for place in objects]}
         for k in range(len(times))
     ]
     scene, pusher = stated
@@ -294,7 +284,7 @@ def _velocity(times: _Floats, place: _Floats, first: int) -> dict[str, Any]:
         return {}
     near = np.abs(times - times[first]) <= _NEAR
     near[first - 1 : first + 2] = True
-    if np.ptp(place[near, :2], axis=0).max() < _STILL:
+    if np.ptp(place[near, :2], axis=0).max() < STILL:
         return {}
     x, y, *spin = np.polyfit(times[near] - times[first], place[near], 1)[0].tolist()
     return {"velocity": [x, y], **({"spin_deg": spin[0]} if spin else {})}
@@ -328,87 +318,3 @@ def _columns(path: Path, wanted: Sequence[str]) -> tuple[npt.NDArray[np.int64], 
     if len(lines) < 2:
         raise ValueError(f"{path}: a log needs two lines of numbers or more, found {len(lines)}")
     return np.array(lines), {name: np.array(values) for name, values in found.items()}
-
-
-def _check_times(path: str | Path, times: _Floats, lines: npt.NDArray[np.int64]) -> None:
-    back = np.flatnonzero(np.diff(times) <= 0)
-    if len(back):
-        raise ValueError(
-            f"{path}:{lines[back[0] + 1]}: the time does not increase: sort the lines and remove "
-            "duplicates"
-        )
-    usual = float(np.median(np.diff(times)))
-    if not 1e-4 <= usual <= 2.0:
-        raise ValueError(f"{path}: the time step is {usual:g} s; check the unit of time, `clock`")
-
-
-def _check_length(path: str | Path, name: str, place: _Floats, length: str) -> None:
-    away = float(np.abs(place - place[0]).max())
-    if away > _FAR:
-        raise ValueError(
-            f"{path}: `{name}` moves by {away:.1f} m; check `length`, here `{length}`"
-        )
-
-
-def _degrees(path: str | Path, name: str, heading: _Floats, angle: str) -> _Floats:
-    """Returns continuous headings in degrees."""
-    turn = 360.0 if angle == "deg" else math.tau
-    steps = np.abs(np.diff(heading))
-    if angle == "deg":
-        # Headings in radians are recognised: they wrap at pi or stay within pi.
-        wraps = bool((np.abs(steps - math.tau) < 0.3).any())
-        if wraps and np.abs(heading).max() <= math.tau + 1e-6:
-            raise ValueError(f"{path}: the heading of `{name}` wraps at pi; set `angle` to `rad`")
-        if 0.05 < float(np.ptp(heading)) and np.abs(heading).max() <= math.pi:
-            warnings.warn(
-                f"{path}: all headings of `{name}` lie within 3.15 degrees; if they are radians, "
-                "set `angle`",
-                stacklevel=4,
-            )
-    elif np.abs(heading).max() > 4 * math.tau or bool((np.abs(steps - 360.0) < 20.0).any()):
-        raise ValueError(
-            f"{path}: the heading of `{name}` is {np.abs(heading).max():.0f}; set `angle` to `deg`"
-        )
-    return np.asarray(np.unwrap(heading, period=turn) * (360.0 / turn), dtype=np.float64)
-
-
-def _check_gaps(
-    path: str | Path, times: _Floats, lines: npt.NDArray[np.int64], bodies: Mapping[str, _Floats]
-) -> None:
-    steps = np.diff(times)
-    for k in np.flatnonzero(steps > _GAP * np.median(steps)):
-        for name, place in bodies.items():
-            if np.abs(place[k + 1, :2] - place[k, :2]).max() > _STILL:
-                raise ValueError(
-                    f"{path}:{lines[k + 1]}: {steps[k]:.2f} s are missing before this line while "
-                    f"`{name}` moves: cut the log there with `start` or `end`"
-                )
-
-
-def _check_stale(
-    path: str | Path, times: _Floats, lines: npt.NDArray[np.int64], bodies: Mapping[str, _Floats]
-) -> None:
-    pusher = bodies[_PUSHER][:, :2]
-    for name, place in bodies.items():
-        same = (np.diff(place, axis=0) == 0.0).all(axis=1)
-        speed = np.abs(np.diff(place[:, :2], axis=0)).max(axis=1)
-        k = 0
-        while k < len(same):
-            first = k
-            while k < len(same) and same[k]:
-                k += 1
-            if k == first:
-                k += 1
-                continue
-            # Stale during motion: object and pusher move right before and right after.
-            if first == 0 or k == len(same) or times[k] - times[first] < _STALE:
-                continue
-            jumps = min(speed[first - 1], speed[k]) > 1e-4
-            goes = np.abs(pusher[k] - pusher[first]).max() > _STILL or name == _PUSHER
-            if jumps and goes:
-                raise ValueError(
-                    f"{path}:{lines[first]}: the pose of `{name}` is constant for "
-                    f"{times[k] - times[first]:.2f} s during a motion, because the tracker lost "
-                    "it: "
-                    "cut the log there with `start` or `end`"
-                )

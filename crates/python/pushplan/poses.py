@@ -24,10 +24,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ._native import Task
+from ._tags import Floats, about_z, coefficients, opencv, square
 
 __all__ = ["Camera", "Seen", "Tag", "detect", "look"]
-
-Floats = npt.NDArray[np.float64]
 
 #: Default standard deviation of a detected corner, pixels, measured with tags of 40 to 90 pixels
 #: that MuJoCo rendered.
@@ -66,9 +65,9 @@ class Tag:
 
     def corners(self, height: float) -> Floats:
         """Returns the corners in the object's frame, in detectors' order, metres: ``[4, 3]``."""
-        turn = _about_z(self.yaw) if self.turn is None else np.asarray(self.turn, float)
+        turn = about_z(self.yaw) if self.turn is None else np.asarray(self.turn, float)
         middle = np.array((0.0, 0.0, height) if self.position is None else self.position)
-        return middle + _square(self.size) @ turn.T
+        return middle + square(self.size) @ turn.T
 
 
 @dataclass(frozen=True)
@@ -133,7 +132,7 @@ class Camera:
         ValueError
             If the image shows none of the tags.
         """
-        cv2 = _cv2()
+        cv2 = opencv()
         found = detect(image, family)
         known = [k for k in tags if k in found]
         if not known:
@@ -144,12 +143,12 @@ class Camera:
         middles = {k: (*tuple(tags[k]), 0.0)[:3] for k in known}
         points = np.concatenate(
             [
-                np.array([x, y, 0.0]) + _square(size) @ _about_z(yaw).T
+                np.array([x, y, 0.0]) + square(size) @ about_z(yaw).T
                 for x, y, yaw in middles.values()
             ]
         )
         corners = np.concatenate([found[k] for k in known])
-        matrix, distortion = np.asarray(self.matrix, float), _distortion(self.distortion)
+        matrix, distortion = np.asarray(self.matrix, float), coefficients(self.distortion)
         # Coplanar points have two solutions; the one that fits is refined.
         options = cv2.solvePnPGeneric(points, corners, matrix, distortion, flags=cv2.SOLVEPNP_IPPE)
         best = int(np.argmin(np.ravel(options[3])))
@@ -165,10 +164,10 @@ class Camera:
 
     def project(self, points: Floats) -> Floats:
         """Projects points of the table's frame, ``[points, 3]``, to pixels, ``[points, 2]``."""
-        cv2 = _cv2()
+        cv2 = opencv()
         seen, _ = cv2.projectPoints(
             points @ self.turn.T + self.shift, np.zeros(3), np.zeros(3),
-            np.asarray(self.matrix, float), _distortion(self.distortion),
+            np.asarray(self.matrix, float), coefficients(self.distortion),
         )
         return np.asarray(seen, float).reshape(-1, 2)
 
@@ -231,7 +230,7 @@ def detect(image: npt.NDArray[np.uint8], family: str = "apriltag_36h11") -> dict
     dict of int to ndarray, ``[4, 2]``
         Corners of every tag by its id, pixels. A tag that appears twice is left out.
     """
-    aruco = _cv2().aruco
+    aruco = opencv().aruco
     name = "DICT_" + (
         family.upper().replace("H", "h") if family.startswith("apriltag") else family.upper()
     )
@@ -330,8 +329,8 @@ def _fit(
     camera: Camera, points: Floats, corners: Floats, pixels: float
 ) -> Optional[tuple[Floats, Floats, float]]:
     """Fits a pose to observed corners of points; returns it with covariance and error in pixels."""
-    matrix = np.asarray(camera.matrix, float)
-    rays = _cv2().undistortPoints(corners.reshape(-1, 1, 2), matrix, _distortion(camera.distortion))
+    matrix, distortion = np.asarray(camera.matrix, float), coefficients(camera.distortion)
+    rays = opencv().undistortPoints(corners.reshape(-1, 1, 2), matrix, distortion)
     rays = np.column_stack([rays.reshape(-1, 2), np.ones(len(corners))]) @ camera.turn
     eye = -camera.turn.T @ camera.shift
     if np.any(np.abs(rays[:, 2]) < 1e-6):
@@ -346,7 +345,7 @@ def _fit(
         guesses = list(np.linspace(-np.pi, np.pi, 12, endpoint=False))
     best = None
     for heading in guesses:
-        shift = flat[:, :2].mean(0) - _about_z(heading)[:2, :2] @ points[:, :2].mean(0)
+        shift = flat[:, :2].mean(0) - about_z(heading)[:2, :2] @ points[:, :2].mean(0)
         pose = np.array([*shift, heading])
         for _ in range(30):
             turned, slope, _ = _slopes(camera, points, pose)
@@ -373,7 +372,7 @@ def _fit(
 
 def _slopes(camera: Camera, points: Floats, pose: Floats) -> tuple[Floats, Floats, Floats]:
     """Returns points of an object at a pose, and derivatives of their projection."""
-    turned = points @ _about_z(pose[2]).T + np.array([pose[0], pose[1], 0.0])
+    turned = points @ about_z(pose[2]).T + np.array([pose[0], pose[1], 0.0])
     by_point, by_camera = camera.slopes(turned)
     around = np.column_stack(
         [-(turned[:, 1] - pose[1]), turned[:, 0] - pose[0], np.zeros(len(turned))]
@@ -392,28 +391,3 @@ def _heights(task: Task) -> dict[str, float]:
         [(kind, shape)] = thing["shape"].items()
         heights[thing["name"]] = shape["size"][2] if kind == "cuboid" else shape["height"]
     return heights
-
-
-def _square(size: float) -> Floats:
-    half = size / 2
-    return np.array(
-        [[-half, half, 0.0], [half, half, 0.0], [half, -half, 0.0], [-half, -half, 0.0]]
-    )
-
-
-def _about_z(angle: float) -> Floats:
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-
-
-def _distortion(values: npt.ArrayLike) -> Floats:
-    found = np.ravel(np.asarray(values, float))
-    return found if len(found) else np.zeros(5)
-
-
-def _cv2() -> Any:
-    try:
-        import cv2
-    except ImportError as error:
-        raise ImportError("detecting tags needs OpenCV: pip install 'pushplan[camera]'") from error
-    return cv2

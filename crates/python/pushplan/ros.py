@@ -41,6 +41,7 @@ import numpy as np
 
 from . import _native
 from ._ending import until_signal
+from ._messages import types
 
 __all__ = ["Node", "Stopped", "main"]
 
@@ -74,7 +75,7 @@ class Node:
     def __init__(
         self, task: _native.Task, *, name: str = "pushplan", tries: int = 8, **solve: Any
     ) -> None:
-        ros = _ros()
+        ros = types()
         self.task, self.tries, self.options = task, tries, solve
         self.node = ros["Node"](name)
         self.ros = ros
@@ -352,29 +353,6 @@ class Node:
 def _answer(answer: Any, success: bool, report: dict[str, Any]) -> Any:
     answer.success, answer.message = success, json.dumps(report)
     return answer
-
-
-def _ros() -> dict[str, Any]:
-    try:
-        from geometry_msgs.msg import PoseStamped  # type: ignore[import-not-found,import-untyped,unused-ignore]
-        from nav_msgs.msg import Path  # type: ignore[import-not-found,import-untyped,unused-ignore]
-        from rclpy.action import ActionServer, CancelResponse, GoalResponse  # type: ignore[import-not-found,import-untyped,unused-ignore]
-        from rclpy.callback_groups import ReentrantCallbackGroup  # type: ignore[import-not-found,import-untyped,unused-ignore]
-        from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor  # type: ignore[import-not-found,import-untyped,unused-ignore]
-        from rclpy.node import Node as RosNode  # type: ignore[import-not-found,import-untyped,unused-ignore]
-        from std_msgs.msg import String  # type: ignore[import-not-found,import-untyped,unused-ignore]
-        from std_srvs.srv import Trigger  # type: ignore[import-not-found,import-untyped,unused-ignore]
-        from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint  # type: ignore[import-not-found,import-untyped,unused-ignore]
-    except ImportError as error:
-        raise ImportError(
-            "the node needs ROS 2: source an installation, or pip install 'pushplan[ros]'"
-        ) from error
-    try:
-        from pushplan_interfaces.action import Push  # type: ignore[import-not-found,import-untyped,unused-ignore]
-    except ImportError:
-        Push = None
-    names = locals()
-    return {("Node" if name == "RosNode" else name): thing for name, thing in names.items()}
 
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:

@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 
 import pushplan
+from pushplan import _messages
 
 os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
 os.environ.setdefault("ROS_DOMAIN_ID", "47")
@@ -38,7 +39,7 @@ class Robot:
     """Publishes the pose of the can, and pushes it in the 2-D engine unless it is ``stuck``."""
 
     def __init__(self, task: pushplan.Task, stuck: bool = False) -> None:
-        parts = ros._ros()
+        parts = _messages.types()
         self.parts, self.task, self.stuck = parts, task, stuck
         self.poses = np.array(task.start)
         self.node = parts["Node"]("robot")
@@ -113,7 +114,7 @@ class Turning:
 
     def __init__(self, node: Any) -> None:
         self.node = node
-        self.executor = ros._ros()["MultiThreadedExecutor"](num_threads=3)
+        self.executor = _messages.types()["MultiThreadedExecutor"](num_threads=3)
         self.executor.add_node(node)
         self.thread = threading.Thread(target=self.executor.spin, daemon=True)
         self.thread.start()

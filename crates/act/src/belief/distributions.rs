@@ -22,8 +22,8 @@ pub fn normal(rng: &mut impl Rng) -> f64 {
     radius * (TAU * rng.random::<f64>()).cos()
 }
 
-/// Draws an index with these weights.
-pub(super) fn weighted(rng: &mut impl Rng, weights: &[f64]) -> usize {
+/// Draws an index with these weights, which need not sum to one.
+pub fn weighted(rng: &mut impl Rng, weights: &[f64]) -> usize {
     let mut left = rng.random::<f64>() * weights.iter().sum::<f64>();
     for (index, weight) in weights.iter().enumerate() {
         left -= weight;

@@ -44,7 +44,7 @@ mod settings;
 mod state_filter;
 mod window;
 
-pub use distributions::{generator, normal};
+pub use distributions::{generator, normal, weighted};
 pub use filter::{Belief, Step};
 pub use joint_limits::NO_STOP;
 pub use joints::carried;

@@ -138,7 +138,8 @@ mod tests {
         assert!(beside < 0.02, "the grid ends beside the body: {beside}");
         let ell = [frame[0].clone(), frame[2].clone()];
         let beyond = Occupancy::filled(&ell).beyond(&rectangle([0.0, 0.0], [0.1, 0.1]));
-        // A bar is 32 cells wide, and one cell more or less at its edge is 3 %.
-        assert!((beyond - 64.0 / 36.0).abs() < 0.04 * 64.0 / 36.0, "{beyond}");
+        // Both edges of a bar are centres of cells, so it covers 33 of 161 columns.
+        let free = 128.0 * 128.0;
+        assert!((beyond - free / (161.0 * 161.0 - free)).abs() < 1e-12, "{beyond}");
     }
 }

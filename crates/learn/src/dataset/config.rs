@@ -85,7 +85,7 @@ impl DatasetConfig {
         Self { seed, episodes, ..self.clone() }
     }
 
-    /// Returns the manifest of a folder of files with so many episodes each.
+    /// Returns the manifest of a folder of files with this number of episodes each.
     pub(super) fn manifest_of_files(&self, files: usize, episodes_a_file: u64) -> RunManifest {
         let mut settings = json!(self.sampled());
         settings["episodes"] = json!(self.episodes);

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use pushplan::internals::scene::Span;
+pub(super) use pushplan_act::belief::weighted;
 use rand::Rng;
 use rand_pcg::Pcg64;
 
@@ -24,16 +25,4 @@ pub(super) fn heading(rng: &mut Pcg64) -> f64 {
 /// Draws -1 or 1.
 pub(super) fn sign(rng: &mut Pcg64) -> f64 {
     if rng.random::<bool>() { 1.0 } else { -1.0 }
-}
-
-/// Draws an index with the given weights.
-pub(super) fn weighted(rng: &mut Pcg64, weights: &[f64]) -> usize {
-    let mut left = rng.random::<f64>() * weights.iter().sum::<f64>();
-    for (index, weight) in weights.iter().enumerate() {
-        left -= weight;
-        if left < 0.0 {
-            return index;
-        }
-    }
-    weights.len().saturating_sub(1)
 }
