@@ -41,4 +41,4 @@ pub use shape::{Footprint, Shape};
 pub use solid::{Solid, area_of, common_area, without};
 pub use spatial::{Matrix3, Pose3, Turn3, Vector3};
 pub use support_edge::{SupportEdge, support_edge};
-pub use vector::Vector;
+pub use vector::{Vector, distance_to_origin};

@@ -126,11 +126,20 @@ pub enum Warning {
         /// Name of the obstacle or object.
         obstacle: String,
     },
-    /// The lifted tool has no free path to a push from the previous one.
+    /// The lifted tool has no free path to a step, or from it home.
     NoWay {
+        /// Index of the step.
+        push: usize,
+        /// Whether the path leads home.
+        back: bool,
+        /// Name of the obstruction, which is taller than the travel height.
+        obstacle: String,
+    },
+    /// The tool ends below a body and cannot be lifted.
+    NotLifted {
         /// Index of the push.
         push: usize,
-        /// Name of the obstruction, which is taller than the travel height.
+        /// Name of the body above the tool.
         obstacle: String,
     },
     /// The arm cannot make a push or reach its start.
@@ -316,6 +325,7 @@ impl Warning {
             Warning::ThroughObstacle { .. } => "through an obstacle",
             Warning::HandThrough { .. } => "hand through an obstacle",
             Warning::NoWay { .. } => "no path to a push",
+            Warning::NotLifted { .. } => "tool below a body",
             Warning::Arm { .. } => "infeasible for the arm",
             Warning::ForbiddenTool { .. }
             | Warning::ForbiddenYaw { .. }

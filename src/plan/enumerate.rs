@@ -12,6 +12,7 @@ use crate::{
 
 use super::cost_to_go::CostToGo;
 use super::node::Node;
+use super::reached::Reached;
 use super::scored::Scores;
 use super::statistics::SearchStatistics;
 use super::{CandidatePush, Infeasible, Start, Workspace};
@@ -80,7 +81,7 @@ pub(super) fn extensions(
     workspace: &Workspace,
     field: &CostToGo,
     nodes: &[Node],
-    grips: &Grips,
+    (grips, reached): (&Grips, &Reached),
     offsets: usize,
     statistics: &mut SearchStatistics,
     scores: &mut Scores,
@@ -100,7 +101,10 @@ pub(super) fn extensions(
             let tried = |object| pushes(workspace, &nodes[node], (grip, object), offsets);
             movers
                 .flat_map(tried)
-                .map(|push| (push, extend(workspace, field, &nodes[node], node, push)))
+                .map(|push| {
+                    let from = (&nodes[node], node);
+                    (push, extend(workspace, (field, reached), from, push))
+                })
                 .collect()
         })
         .collect();
@@ -175,9 +179,8 @@ fn pushes(
 
 fn extend(
     workspace: &Workspace,
-    field: &CostToGo,
-    node: &Node,
-    index: usize,
+    (field, reached): (&CostToGo, &Reached),
+    (node, index): (&Node, usize),
     mut planned: CandidatePush,
 ) -> Result<Extension, Infeasible> {
     let depth = node.candidate.as_ref().map_or(0, |c| c.pushes.len());
@@ -197,6 +200,9 @@ fn extend(
     let pushed = (&node.state, planned.object);
     if let Some(reason) = workspace.margins(planned.grip(), pushed, &push, set_down).violation() {
         return Err(reason);
+    }
+    if workspace.is_placed() && !reached.reach(planned.grip(), start) {
+        return Err(Infeasible::NoWay);
     }
     let promise = (0..=2)
         .map(|k| field.carried(pushed, push.heading() * (push.length * k as f64 / 2.0)))

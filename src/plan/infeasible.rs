@@ -24,6 +24,9 @@ pub enum Infeasible {
     /// The hand or the handle of the tool would meet an obstacle or an object taller than the tool.
     #[error("the hand would collide with another body")]
     Hand,
+    /// A body higher than the travel height obstructs the lifted tool on its way from home.
+    #[error("a tall body or a keep-out region obstructs the way of the lifted tool")]
+    NoWay,
     /// The object would topple instead of sliding.
     #[error("the object would topple at this height; see `pushes.lift`")]
     Topples,

@@ -18,6 +18,7 @@ mod linear;
 mod node;
 mod parameters;
 mod qp;
+mod reached;
 mod refine;
 mod refined;
 mod rollouts;
@@ -53,5 +54,5 @@ pub use transport::{FollowSettings, Followed, Groups, Leg, Transport, follow};
 pub use uncertainty::Uncertainty;
 pub use workspace::{
     HAND_CLEARANCE, MIN_LENGTH, Margins, OBSTACLE_CLEARANCE, SET_DOWN_CLEARANCE, STAND_OFF,
-    Workspace, distance_to_origin,
+    Workspace,
 };

@@ -20,6 +20,7 @@ use super::beam::{Stop, choose};
 use super::cost_to_go::CostToGo;
 use super::enumerate::{Extension, Grips, extensions, keep_promising};
 use super::node::Node;
+use super::reached::Reached;
 use super::rollouts::{single_push, stops};
 use super::score::{final_score, finite_score, is_blocked};
 use super::scored::Scores;
@@ -57,6 +58,7 @@ pub struct Search<'a> {
     settings: SearchSettings,
     field: CostToGo<'a>,
     grips: Grips,
+    reached: Reached<'a>,
     nodes: Vec<Node>,
     /// Last pushes and their possible stops, from which the next level starts. They become nodes on
     /// demand, because rolling them out is wasted if shorter plans work.
@@ -128,8 +130,10 @@ impl<'a> Search<'a> {
             others: spread.starts().to_vec(),
             room: 0.0,
         };
+        let reached = Reached::new(workspace, &situation.start, &grips.all);
         Self {
             workspace,
+            reached,
             situation: situation.clone(),
             settings,
             field,
@@ -193,7 +197,7 @@ impl<'a> Search<'a> {
             &self.workspace,
             &self.field,
             &self.nodes,
-            &self.grips,
+            (&self.grips, &self.reached),
             self.settings.offsets,
             &mut self.statistics,
             &mut self.scores,

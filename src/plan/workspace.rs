@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use crate::geometry::{
-    Footprint, Pose, Vector, clearance, perpendicular, swept_clearance, travel_to_contact,
+    Footprint, Pose, Vector, clearance, distance_to_origin, perpendicular, swept_clearance,
+    travel_to_contact,
 };
 use crate::{
     scene::{Fixed, Mover, Part, State, Tool},
@@ -384,12 +385,4 @@ impl Workspace<'_> {
 fn axes(direction: f64) -> (Vector, Vector) {
     let ahead = Vector::new(direction.cos(), direction.sin());
     (ahead, perpendicular(ahead))
-}
-
-/// Returns the distance between the origin and the segment between two points, metres.
-pub fn distance_to_origin(from: Vector, to: Vector) -> f64 {
-    let way = to - from;
-    let square = way.norm_squared();
-    let t = if square > 0.0 { (-from.dot(&way) / square).clamp(0.0, 1.0) } else { 0.0 };
-    (from + way * t).norm()
 }

@@ -7,7 +7,8 @@ use rayon::prelude::*;
 
 use crate::asset::ToolLibrary;
 use crate::geometry::Pose;
-use crate::plan::{Search, distance_to_origin, is_behind};
+use crate::geometry::distance_to_origin;
+use crate::plan::{Search, is_behind};
 use crate::progress::{Progress, Quiet};
 use crate::{
     scene::{JointKind, Obstacle, Robot, Tool},

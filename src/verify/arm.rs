@@ -9,14 +9,15 @@ use crate::{
     task::{Followed, Plan, Task},
 };
 
-/// Returns the states before the first push of a plan and after each push, from a replay in 3-D.
-fn states(situation: &Situation, plan: &Plan, evidence: &[Evidence]) -> Vec<State> {
-    let mut states = vec![situation.start.clone()];
+/// Returns the states before the first step of a plan and after each step, from a replay in 3-D
+/// that begins in `start`.
+pub fn step_states(start: &State, plan: &Plan, evidence: &[Evidence]) -> Vec<State> {
+    let mut states = vec![start.clone()];
     let nominal =
         evidence.iter().find(|one| one.engine == Engine::Spatial && one.trajectory.is_some());
     let frames = nominal.and_then(|one| one.trajectory.as_ref()).map_or(&[][..], |t| &t.frames);
-    for push in 0..plan.push_steps().count() {
-        let last = frames.iter().rfind(|frame| frame.stroke == push);
+    for step in 0..plan.steps.len() {
+        let last = frames.iter().rfind(|frame| frame.stroke == step);
         states.extend(last.map(|frame| frame.state.clone()));
     }
     states
@@ -32,7 +33,7 @@ pub fn joints(
     evidence: &[Evidence],
 ) -> Option<Followed> {
     let arm = task.arm.as_deref()?;
-    let states = states(situation, plan, evidence);
+    let states = step_states(&situation.start, plan, evidence);
     Some(arm.follow(task, &situation.scene, tool, plan, &states))
 }
 
@@ -54,7 +55,7 @@ pub(super) fn arm_faults(
     };
     let faults = match made {
         Ok(path) => {
-            let states = states(situation, plan, evidence);
+            let states = step_states(&situation.start, plan, evidence);
             arm.judge(&situation.scene, tool, plan, &states, &path)
         }
         Err(fault) => vec![fault],

@@ -11,6 +11,6 @@ mod sequential_test;
 mod space;
 mod verifier;
 
-pub use arm::joints;
+pub use arm::{joints, step_states};
 pub use rules::rule_violations;
 pub use verifier::{Verifier, VerifySettings};

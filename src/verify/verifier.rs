@@ -14,9 +14,9 @@ use crate::{
     task::{Job, Plan, Task, ToolMotion},
 };
 
-use super::arm::arm_faults;
+use super::arm::{arm_faults, step_states};
 use super::perturbation::{lifted, perturbed, wary};
-use super::rules::{hand_meets, rule_violations, unplayable};
+use super::rules::{hand_meets, rule_violations, travel_faults, unplayable};
 use super::sequential_test;
 use super::space;
 
@@ -138,6 +138,8 @@ impl<'a> Verifier<'a> {
         if in_space(task, plan) {
             let evidence = self.replay_in_space(task, situation, (tools, plan), None);
             forbidden.extend(hand_faults((task, scene), tools, plan, [&evidence]));
+            let states = step_states(&situation.start, plan, std::slice::from_ref(&evidence));
+            forbidden.extend(travel_faults((task, scene), tools, plan, &states));
             return Verdict::judge(forbidden, vec![evidence], task.robustness);
         }
         let motions = plan.slides(tools).unwrap_or_default();
@@ -149,6 +151,8 @@ impl<'a> Verifier<'a> {
         // The 2-D engine comes first, because people compare predictions with it.
         evidence.reverse();
         forbidden.extend(hand_faults((task, scene), tools, plan, &evidence));
+        let states = step_states(&situation.start, plan, &evidence);
+        forbidden.extend(travel_faults((task, scene), tools, plan, &states));
         if let Some(first) = motions.first() {
             let asked = (task, situation);
             forbidden.extend(arm_faults(asked, &first.tool, plan, &evidence, self.joints));

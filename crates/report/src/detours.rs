@@ -1,31 +1,30 @@
-//! Detours of the tool between pushes.
+//! Detours of the lifted tool.
 
-use std::sync::Arc;
-
-use pushplan::{
-    scene::Tool,
-    task::{Plan, PushStep, Task, TravelPath},
-};
+use pushplan::{solve::RankedPlan, task::Task, verify::step_states};
 
 use super::plan_text::point;
 
-/// Returns a line for each detour between two pushes.
-pub(super) fn detours(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Vec<String> {
-    let Some(tool) = tools.first().filter(|_| !plan.levers()) else { return Vec::new() };
-    let pushes: Vec<_> = plan.push_steps().collect();
-    let around = |(k, pair): (usize, &[&PushStep])| {
-        let TravelPath::Around { what, by } =
-            task.path_between(&task.scene, tool, [pair[0], pair[1]])?
-        else {
-            return None;
+/// Returns a line for each detour of the lifted tool.
+pub(super) fn detours(task: &Task, best: &RankedPlan) -> Vec<String> {
+    let evidence = best.verdict.as_ref().map_or(&[][..], |verdict| &verdict.evidence);
+    let states = step_states(&task.scene.start(), &best.plan, evidence);
+    let legs = task.legs(&task.scene, &best.tools, &best.plan, &states).unwrap_or_default();
+    let steps = best.plan.steps.len();
+    let line = |leg: &pushplan::task::Leg| {
+        let what = leg.around.as_ref()?;
+        let corners = &leg.path[1..leg.path.len() - 1];
+        let by: Vec<String> = corners.iter().copied().map(point).collect();
+        let way = match leg.step {
+            step if step == steps => "on the way home".to_owned(),
+            0 => "from home to step 1".to_owned(),
+            step => format!("between steps {step} and {}", step + 1),
         };
-        let by: Vec<String> = by.into_iter().map(point).collect();
-        let (height, by) = (task.robot.travel, by.join(", "));
-        let (from, to) = (k + 1, k + 2);
         Some(format!(
-            "between pushes {from} and {to} the tool moves {height:.2} m above the table around \
-             {what}, via {by}"
+            "{way} the tool moves {:.2} m at {:.2} m above the table around {what}, via {}",
+            leg.length(),
+            task.robot.travel,
+            by.join(", ")
         ))
     };
-    pushes.windows(2).enumerate().filter_map(around).collect()
+    legs.iter().filter_map(line).collect()
 }

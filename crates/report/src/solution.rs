@@ -32,7 +32,7 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
         outcomes.lines.extend(share.map(|share| {
             format!("{:.0} % of the perturbed replays meet the same goals", 100.0 * share)
         }));
-        outcomes.lines.extend(detours(task, &best.plan, &best.tools));
+        outcomes.lines.extend(detours(task, best));
         sections.push(outcomes);
     }
     if solution.statistics.levers.is_some() {

@@ -135,14 +135,23 @@ impl fmt::Display for Warning {
             Warning::HandThrough { push, obstacle } => {
                 write!(f, "the hand passes through {obstacle} in push {}", push + 1)
             }
-            Warning::NoWay { push, obstacle } => {
-                let (before, push) = (push, push + 1);
+            Warning::NoWay { push, back, obstacle } => {
+                let which = match (push, back) {
+                    (push, true) => format!("from push {} home", push + 1),
+                    (0, false) => "from home to push 1".to_owned(),
+                    (push, false) => format!("from push {push} to push {}", push + 1),
+                };
                 write!(
                     f,
-                    "{obstacle} obstructs the path of the tool from push {before} to push {push} \
-                     and is higher than `robot.travel`"
+                    "{obstacle} obstructs the path of the lifted tool {which}; there is no way \
+                     around at `robot.travel`"
                 )
             }
+            Warning::NotLifted { push, obstacle } => write!(
+                f,
+                "the tool cannot be lifted after push {}, because {obstacle} is above it",
+                push + 1
+            ),
             Warning::Arm { push, fault } => {
                 write!(f, "the arm cannot make push {}: {fault}", push + 1)
             }

@@ -32,6 +32,5 @@ pub fn rule_violations(
             }
         }
     }
-    found.extend(clearance::blocked_ways((task, scene), library, plan));
     found
 }

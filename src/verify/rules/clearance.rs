@@ -1,14 +1,11 @@
-//! Rules of clearance: fixed bodies that the tool, handle and hand must avoid, and the path of a
-//! lifted tool from push to push.
-
-use std::sync::Arc;
+//! Rules of clearance: fixed bodies that the tool, handle and hand must avoid during a push.
 
 use crate::geometry::{Footprint, Pose, clearance, swept_clearance};
 use crate::outcome::Warning;
 use crate::scene::{Fixed, Mover, Scene, Tool};
-use crate::task::{Plan, PushStep, Step, Task, TravelPath};
+use crate::task::{PushStep, Task};
 
-use super::{SLACK, tools};
+use super::SLACK;
 
 /// Returns the fixed bodies that the tool and hand pass through during a push, or during its
 /// descent if the tool `comes_down` from above.
@@ -52,22 +49,4 @@ fn obstruction(
     let mut fixed = scene.fixed(mover, span);
     let found = fixed.find(on_the_way).or_else(|| scene.above(span[1]).find(on_the_way_down));
     found.map(|fixed| fixed.name.to_owned())
-}
-
-/// Returns the pushes that the lifted tool cannot reach from the previous push. A different tool
-/// comes from the place where tools are kept.
-pub(super) fn blocked_ways(
-    (task, scene): (&Task, &Scene),
-    library: &[Arc<Tool>],
-    plan: &Plan,
-) -> Vec<Warning> {
-    let way = |(before, pair): (usize, &[Step])| {
-        let [Step::Push(from), Step::Push(to)] = pair else { return None };
-        let tool = tools::named(library, &pair[0]).filter(|_| from.tool == to.tool)?;
-        match task.path_between(scene, tool, [from, to])? {
-            TravelPath::Blocked(obstacle) => Some(Warning::NoWay { push: before + 1, obstacle }),
-            TravelPath::Straight | TravelPath::Around { .. } => None,
-        }
-    };
-    plan.steps.windows(2).enumerate().filter_map(way).collect()
 }

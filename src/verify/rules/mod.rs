@@ -12,10 +12,12 @@ mod playable;
 mod push;
 mod reach;
 mod tools;
+mod travel;
 
 pub use book::rule_violations;
 pub(super) use hand::hand_meets;
 pub(super) use playable::unplayable;
+pub(super) use travel::travel_faults;
 
 /// Slack for rounding, metres and radians.
 const SLACK: f64 = 1e-5;

@@ -1,0 +1,233 @@
+//! Legs of a plan's travel: from home, between steps, through home at a change of tools, and back.
+
+use std::sync::Arc;
+
+use crate::geometry::{Vector, Vector3};
+use crate::scene::{Plate, Scene, State, Tool};
+use crate::task::{Plan, PushForm, Step, Task, ToolMotion};
+
+use super::detour::{Places, home};
+use super::space::{Space, is_open};
+
+/// Travel of a lifted tool at the travel height of its robot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Leg {
+    /// Index of the step to which it leads; the number of steps for the way home.
+    pub step: usize,
+    /// Name of the tool.
+    pub tool: String,
+    /// Rotation of the end effector, radians.
+    pub yaw: f64,
+    /// Positions of the end effector: start, corners and end, metres.
+    pub path: Vec<Vector>,
+    /// Name of the body around which it leads, if it is not straight.
+    pub around: Option<String>,
+}
+
+impl Leg {
+    /// Returns the length of its path, metres.
+    pub fn length(&self) -> f64 {
+        self.path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
+    }
+}
+
+/// A leg for which there is no path.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Blocked {
+    /// Index of the step before the leg home, otherwise of the step to which the leg leads.
+    pub step: usize,
+    /// Whether the leg leads home.
+    pub back: bool,
+    /// Name of the first body on the straight path.
+    pub obstacle: String,
+}
+
+/// Positions of the end effector at which a step begins and ends, with its tool.
+struct Stance<'a> {
+    tool: &'a Arc<Tool>,
+    /// Rotations of the end effector at the start and at the end, radians.
+    yaws: [f64; 2],
+    start: Vector,
+    end: Vector,
+}
+
+/// End of a leg.
+#[derive(Clone, Copy)]
+enum End {
+    Home,
+    At(Vector),
+}
+
+impl<'a> Stance<'a> {
+    /// Creates the stance of a step; `None` if its tool is not among `tools`.
+    fn of(scene: &Scene, tools: &'a [Arc<Tool>], step: &Step) -> Option<Self> {
+        let tool = tools.iter().find(|tool| tool.name == step.tool())?;
+        match step {
+            Step::Push(step) => {
+                let pushes = [step.push];
+                let motion =
+                    ToolMotion::pushes(Arc::clone(tool), step.lift, step.grip_yaw, &pushes, true);
+                let back = motion.retreat(scene, 0);
+                let end = back.map_or(step.push.end(), |back| (back.to * tool.grip).position);
+                Some(Self { tool, yaws: [step.grip_yaw; 2], start: step.push.start, end })
+            }
+            Step::LeverUp(step) => {
+                let (mut plate, blade) = (Plate::of(scene, step.lever.plate), tool.blade()?);
+                plate.pose = step.expected.unwrap_or(plate.pose);
+                let at = |time: f64, back: f64| {
+                    let pose = step.lever.blade_on(&plate, &blade, time);
+                    let grip = pose.point(Vector3::new(-0.5 * blade.length - back, 0.0, 0.0));
+                    let ahead = pose.rotation * Vector3::x();
+                    (grip.xy(), ahead.y.atan2(ahead.x))
+                };
+                let (start, first) = at(0.0, step.lever.retreat);
+                let (end, last) = at(step.lever.duration(), 0.0);
+                Some(Self { tool, yaws: [first, last], start, end })
+            }
+        }
+    }
+}
+
+impl Task {
+    /// Returns the maximum number of changes to another tool in a plan: 0 with an arm, because the
+    /// task does not state where an arm fetches tools.
+    pub fn tool_changes(&self) -> usize {
+        let stated = self.pushes.tool_changes.unwrap_or(usize::MAX);
+        if self.arm.is_some() { 0 } else { stated }
+    }
+
+    /// Returns the travel of the lifted tools of a plan, in order; the robot begins and ends at
+    /// home, and changes tools there. `states` are the states before the first step and after each
+    /// step, as far as they are known.
+    ///
+    /// An arm has its own joint motions between steps, so that the result is then empty.
+    ///
+    /// # Errors
+    /// Returns the first leg for which there is no path.
+    pub fn legs(
+        &self,
+        scene: &Scene,
+        tools: &[Arc<Tool>],
+        plan: &Plan,
+        states: &[State],
+    ) -> Result<Vec<Leg>, Blocked> {
+        let stances = plan.steps.iter().map(|step| Stance::of(scene, tools, step));
+        let stances: Option<Vec<Stance>> = stances.collect();
+        let (Some(stances), None) = (stances, &self.arm) else { return Ok(Vec::new()) };
+        let mut legs = Vec::new();
+        for k in 0..=stances.len() {
+            let before = k.checked_sub(1).and_then(|k| stances.get(k));
+            let next = stances.get(k);
+            if !self.is_lifted(plan, k) {
+                continue;
+            }
+            let state = states.get(k).or(states.last());
+            let state = state.cloned().unwrap_or_else(|| scene.start());
+            let travel = Travel { task: self, scene, state: &state, step: k };
+            travel.add(&mut legs, before, next)?;
+        }
+        Ok(legs)
+    }
+
+    /// Returns `true` if the tool is lifted before step `k` of a plan.
+    fn is_lifted(&self, plan: &Plan, k: usize) -> bool {
+        let before = k.checked_sub(1).and_then(|k| plan.steps.get(k));
+        match (before, plan.steps.get(k)) {
+            // The first chained push begins at home, where the tool is lowered.
+            (None, Some(Step::Push(step))) => step.form == PushForm::Placed,
+            (Some(Step::Push(_)), Some(Step::Push(step))) => step.form == PushForm::Placed,
+            (None, None) => false,
+            _ => true,
+        }
+    }
+
+    /// Returns the positions to which `tool`, held at `yaw` (radians), can travel from home; `None`
+    /// if nothing but the robot's own column is higher than the travel height.
+    pub fn places<'a>(
+        &'a self,
+        scene: &'a Scene,
+        state: &State,
+        (tool, yaw): (&Tool, f64),
+    ) -> Option<Places<'a>> {
+        if self.arm.is_some() || is_open(self, scene) {
+            return None;
+        }
+        let space = || Space::new(self, (scene, state), tool, yaw);
+        Some(Places::from_home(space(), || space().of_hand()))
+    }
+}
+
+/// Travel before a step, with the objects in one state.
+struct Travel<'a> {
+    task: &'a Task,
+    scene: &'a Scene,
+    state: &'a State,
+    step: usize,
+}
+
+impl Travel<'_> {
+    fn space(&self, tool: &Tool, yaw: f64) -> Space<'_> {
+        Space::new(self.task, (self.scene, self.state), tool, yaw)
+    }
+
+    /// Appends the legs from the end of a step to the start of the next. A tool that changes, or
+    /// cannot rotate to its next yaw, goes by way of home.
+    fn add(
+        &self,
+        legs: &mut Vec<Leg>,
+        before: Option<&Stance>,
+        next: Option<&Stance>,
+    ) -> Result<(), Blocked> {
+        if let (Some(before), Some(next)) = (before, next)
+            && before.tool.name == next.tool.name
+        {
+            let [from, to] = [before.yaws[1], next.yaws[0]];
+            if from == to || self.space(next.tool, to).turns(before.end, from) {
+                let ends = [End::At(before.end), End::At(next.start)];
+                legs.push(self.leg((next.tool, to), ends, self.step)?);
+                return Ok(());
+            }
+        }
+        if let Some(before) = before {
+            let ends = [End::At(before.end), End::Home];
+            let leg = self.leg((before.tool, before.yaws[1]), ends, self.step);
+            legs.push(leg.map_err(|blocked| Blocked {
+                step: self.step - 1,
+                back: true,
+                ..blocked
+            })?);
+        }
+        if let Some(next) = next {
+            let ends = [End::Home, End::At(next.start)];
+            legs.push(self.leg((next.tool, next.yaws[0]), ends, self.step)?);
+        }
+        Ok(())
+    }
+
+    fn leg(&self, (tool, yaw): (&Tool, f64), ends: [End; 2], step: usize) -> Result<Leg, Blocked> {
+        let space = self.space(tool, yaw);
+        let home = home(&self.task.robot);
+        let at = |end: End, home: Vector| match end {
+            End::Home => home,
+            End::At(position) => position,
+        };
+        let straight = ends.map(|end| at(end, home));
+        let leg = |path, around: Option<&str>| Leg {
+            step,
+            tool: tool.name.clone(),
+            yaw,
+            path,
+            around: around.map(str::to_owned),
+        };
+        if space.met(straight).is_none() {
+            return Ok(leg(straight.to_vec(), None));
+        }
+        let places = Places::from_home(space, || self.space(tool, yaw).of_hand());
+        let found = places.path(ends.map(|end| at(end, places.home())));
+        found.map(|(path, around)| leg(path, around)).map_err(|what| Blocked {
+            step,
+            back: false,
+            obstacle: what.to_owned(),
+        })
+    }
+}

@@ -1,0 +1,9 @@
+//! Travel of a lifted tool: from home to the first step, between steps, at changes of tools, and
+//! back home.
+
+mod detour;
+mod legs;
+mod space;
+
+pub use detour::Places;
+pub use legs::{Blocked, Leg};
