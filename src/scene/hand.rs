@@ -18,6 +18,10 @@ const ROOM: f64 = 0.01;
 /// Height of the column, metres; pushed objects are below it.
 const COLUMN: f64 = 1.0;
 
+/// Half the side of a usual column and of the thinnest, metres.
+const BASE: f64 = 0.08;
+const THIN: f64 = 0.04;
+
 /// A hand: an upright cylinder about the end effector.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -65,10 +69,15 @@ impl Robot {
     /// Name of the column on which the arm stands; no other body can have it.
     pub const BASE: &str = "robot base";
 
-    /// Returns half the side of the default column of an arm whose reach begins at `min` metres:
-    /// 0.08 m, or less if the hand would touch it.
-    pub fn usual_base(min: f64) -> f64 {
-        (min - Hand::default().radius - ROOM).clamp(0.0, 0.08)
+    /// Returns half the side of the default column of an arm, metres: 0.08 m, or less if the hand
+    /// would touch it where the reach begins, `min` metres from the origin, but at least 0.04 m.
+    pub fn usual_base(min: Option<f64>) -> f64 {
+        min.map_or(BASE, |min| (min - Hand::default().radius - ROOM).clamp(THIN, BASE))
+    }
+
+    /// Returns the default start of the reach, metres: what column and hand need.
+    pub fn usual_reach_min(base: f64, hand: Option<Hand>) -> f64 {
+        if base > 0.0 { base + hand.map_or(0.0, |hand| hand.radius) + ROOM } else { 0.0 }
     }
 
     /// Returns the column as an obstacle, or `None` for a robot without one.
@@ -154,6 +163,6 @@ mod tests {
         let low = Robot { hand: Some(Hand { from: Some(0.03), ..Hand::default() }), ..robot };
         assert_eq!(held(0.0, &low)[0].map(|palm| palm.span[0]), Some(0.03));
         assert_eq!(held(0.15, &Robot { hand: None, ..robot }), [None, None]);
-        assert!(robot.column().is_some() && Robot::reaching(0.0, 0.9).column().is_none());
+        assert!(robot.column().is_some() && robot.without_body().column().is_none());
     }
 }

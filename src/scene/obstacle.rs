@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Pose3, Shape, Solid};
 
+use super::Robot;
 use super::serde_planar::{is_zero, planar_only};
 
 /// A fixed cuboid: a wall, a shelf, a standoff, the floor of a tray.
@@ -41,6 +42,11 @@ impl Obstacle {
     /// ```
     pub fn raised(self, z: f64) -> Self {
         Self { z, ..self }
+    }
+
+    /// Returns `true` if it is part of the robot's own body.
+    pub fn is_robot(&self) -> bool {
+        self.name.starts_with(Robot::BASE)
     }
 
     /// Returns the height of its top above the table, metres.

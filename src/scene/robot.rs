@@ -54,7 +54,7 @@ impl Robot {
             reach_max: max,
             max_force: None,
             hand: Some(Hand::default()),
-            base: Self::usual_base(min),
+            base: Self::usual_base(Some(min)),
             travel: Self::TRAVEL,
         }
     }

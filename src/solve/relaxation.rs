@@ -185,7 +185,7 @@ fn wider<'a>(task: &'a Task, tools: &[Arc<Tool>], library: &ToolLibrary) -> Vec<
         add(
             &|task| task.scene.obstacles.retain(|other| other.name != *name),
             Box::new(move |_| match name.as_str() {
-                Robot::BASE => Cause::Base,
+                name if name.starts_with(Robot::BASE) => Cause::Base,
                 _ => Cause::Obstacle { name: name.clone() },
             }),
         );

@@ -13,7 +13,7 @@ use serde_json::Value as Json;
 
 use super::{Plan, PushRules, Task};
 use crate::geometry::{Pose3, Vector};
-use crate::scene::{ArmFault, JointTrajectory, Robot, Scene, State, Tool};
+use crate::scene::{ArmFault, JointTrajectory, Obstacle, Robot, Scene, State, Tool};
 
 /// The joint trajectory that carries out a plan, or the first infeasible push and the reason.
 pub type Followed = Result<JointTrajectory, (usize, ArmFault)>;
@@ -33,6 +33,10 @@ pub trait RobotArm: Any + Debug + Send + Sync {
     /// Returns `false` if it certainly cannot hold a tool at a position (metres) with its end
     /// effector rotated by `yaw` (radians); a cheap test for searches.
     fn allows(&self, position: Vector, yaw: f64) -> bool;
+
+    /// Returns the boxes around the solids that stand on the table with its root, as obstacles
+    /// whose names begin with [`Robot::BASE`](crate::scene::Robot::BASE).
+    fn foot(&self) -> Vec<Obstacle>;
 
     /// Returns the inconsistency in its description, if any.
     fn fault(&self) -> Option<String>;

@@ -213,7 +213,7 @@ impl Task {
     /// ```
     pub fn levering(mut self, levers: LeverRules) -> Self {
         // Lever-ups do not support the robot's body yet.
-        self.scene.obstacles.retain(|obstacle| obstacle.name != Robot::BASE);
+        self.scene.obstacles.retain(|obstacle| !obstacle.is_robot());
         let robot = self.robot.without_body();
         Self { levers: Some(levers), robot, ..self }
     }

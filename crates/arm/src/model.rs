@@ -91,6 +91,11 @@ impl ArmJoint {
         self.origin * moved
     }
 
+    /// Returns the joint frame at the position nearest to zero that the limits allow.
+    pub fn at_rest(&self) -> Pose3 {
+        self.pose(self.limits.map_or(0.0, |[low, high]| 0.0_f64.clamp(low, high)))
+    }
+
     /// Returns the middle of the limits; 0 for a joint without limits.
     pub fn middle(&self) -> f64 {
         self.limits.map_or(0.0, |[low, high]| 0.5 * (low + high))

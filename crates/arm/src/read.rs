@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use pushplan::geometry::Vector;
-use pushplan::scene::{ArmFault, JointTrajectory, Scene, State, Tool};
+use pushplan::scene::{ArmFault, JointTrajectory, Obstacle, Scene, State, Tool};
 use pushplan::task::{
     ArmRefusal, ArmSource, Followed, Plan, RobotArm, StatedArm, Task, read_arms_with,
 };
 
 use super::find::{find_places, usual_home};
+use super::foot::foot;
 use super::follow::follow;
 use super::judge::judge;
 use super::kinematics::{flange, frames};
@@ -105,6 +106,10 @@ impl RobotArm for Arm {
 
     fn allows(&self, position: Vector, yaw: f64) -> bool {
         self.places.allow(position, yaw)
+    }
+
+    fn foot(&self) -> Vec<Obstacle> {
+        foot(self)
     }
 
     fn fault(&self) -> Option<String> {

@@ -3,7 +3,7 @@
 use super::hull::{Hull, PlacedHull};
 use super::model::Arm;
 use pushplan::geometry::{Pose3, Vector3};
-use pushplan::scene::{Object, Robot, Scene, State, Tool};
+use pushplan::scene::{Object, Scene, State, Tool};
 
 use super::inverse::start;
 use super::kinematics::{flange, frames};
@@ -51,7 +51,7 @@ pub(super) struct Room<'a> {
     above: usize,
     /// Parts of the tool in the frame of the flange.
     tool: Vec<Hull>,
-    /// Obstacles, except the base of the arm.
+    /// Obstacles, except the foot of the arm.
     obstacles: Vec<(&'a str, PlacedHull)>,
     /// Objects in their own frames.
     objects: Vec<(&'a str, Hull)>,
@@ -68,7 +68,7 @@ impl<'a> Room<'a> {
         let flat = |pose, height| Pose3::upright(pose, height);
         let upright =
             |one: &Object| Hull::prism(&one.shape.footprint(), one.span(), &Pose3::default());
-        let obstacles = scene.obstacles.iter().filter(|one| one.name != Robot::BASE);
+        let obstacles = scene.obstacles.iter().filter(|one| !one.is_robot());
         let obstacles = obstacles.map(|one| {
             let half = 0.5 * Vector3::from(one.size);
             let hull = Hull::cuboid(half, &Pose3::default());

@@ -109,7 +109,7 @@ impl<'a> File<'a> {
         let branches = Branches { links: &links, joints: &joints, flange };
         let on_chain: Vec<&str> = chain.iter().map(|joint| end(*joint, "child")).collect();
         let mut pose = Pose3::default();
-        self.collect(&branches, (link, pose), &on_chain, &mut arm.bodies[0].solids)?;
+        self.collect(&branches, (link, pose, true), &on_chain, &mut arm.bodies[0].solids)?;
         for joint in chain {
             let child = end(joint, "child");
             pose = pose * self.origin(joint)?;
@@ -118,8 +118,9 @@ impl<'a> File<'a> {
                 arm.bodies.push(ArmBody { name: child.to_owned(), solids: Vec::new() });
                 pose = Pose3::default();
             }
+            let resting = arm.joints.is_empty();
             if let Some(body) = arm.bodies.last_mut() {
-                self.collect(&branches, (child, pose), &on_chain, &mut body.solids)?;
+                self.collect(&branches, (child, pose, resting), &on_chain, &mut body.solids)?;
             }
         }
         arm.flange = pose;
@@ -127,11 +128,12 @@ impl<'a> File<'a> {
         Ok(arm)
     }
 
-    /// Collects the solids of a link, and of links that are fixed to it outside the chain.
+    /// Collects the solids of a link, and of links that are fixed to it outside the chain. Other
+    /// joints outside the chain count as fixed if they are `resting`, such as those of a second arm.
     fn collect(
         &self,
         branches: &Branches<'_, 'a>,
-        (link, pose): (&str, Pose3),
+        (link, pose, resting): (&str, Pose3, bool),
         on_chain: &[&str],
         solids: &mut Vec<Hull>,
     ) -> Result<(), Wrong> {
@@ -151,15 +153,21 @@ impl<'a> File<'a> {
             fixed.sort_by_key(|(child, _)| **child);
             for (child, joint) in fixed {
                 let beside = !on_chain.contains(child);
-                if beside
-                    && end(*joint, "parent") == link
-                    && joint.attribute("type") == Some("fixed")
-                {
-                    left.push((child, pose * self.origin(*joint)?));
+                let fixed = joint.attribute("type") == Some("fixed");
+                if beside && end(*joint, "parent") == link && (fixed || resting) {
+                    let origin = pose * self.origin(*joint)?;
+                    // Joints of kinds that no arm has, such as mimicking fingers, are left out.
+                    let at = if fixed { Some(origin) } else { self.rest_of(*joint, origin) };
+                    left.extend(at.map(|at| (*child, at)));
                 }
             }
         }
         Ok(())
+    }
+
+    /// Returns the frame of a joint at rest; `None` for joints of kinds that no arm has.
+    fn rest_of(&self, joint: Node<'a, 'a>, origin: Pose3) -> Option<Pose3> {
+        self.joint(joint, origin).ok().map(|joint| joint.at_rest())
     }
 
     fn joint(&self, joint: Node<'a, 'a>, origin: Pose3) -> Result<ArmJoint, Wrong> {

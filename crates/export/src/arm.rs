@@ -6,7 +6,7 @@
 //! tracking error therefore results from external forces.
 
 use pushplan::geometry::{Pose, Pose3, Vector3};
-use pushplan::scene::{JointTrajectory, Robot, Scene, Tool};
+use pushplan::scene::{JointTrajectory, Scene, Tool};
 use pushplan_arm::{Arm, ArmBody, Hull, above};
 
 use super::pairs::Pair;
@@ -134,7 +134,7 @@ pub(super) fn pairs(arm: &Arm, scene: &Scene, tool: &Tool) -> Vec<Pair> {
     }
     let table = ("table".to_owned(), scene.table_friction);
     let objects = scene.objects.iter().map(|one| (format!("object/{}", one.name), one.friction));
-    let obstacles = scene.obstacles.iter().filter(|one| one.name != Robot::BASE);
+    let obstacles = scene.obstacles.iter().filter(|one| !one.is_robot());
     let obstacles: Vec<_> =
         obstacles.map(|one| (format!("obstacle/{}", one.name), one.friction)).collect();
     let objects: Vec<_> = objects.collect();

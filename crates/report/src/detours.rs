@@ -1,6 +1,11 @@
 //! Detours of the lifted tool.
 
-use pushplan::{solve::RankedPlan, task::Task, verify::step_states};
+use pushplan::{
+    scene::Robot,
+    solve::RankedPlan,
+    task::{Leg, Task},
+    verify::step_states,
+};
 
 use super::plan_text::point;
 
@@ -10,8 +15,9 @@ pub(super) fn detours(task: &Task, best: &RankedPlan) -> Vec<String> {
     let states = step_states(&task.scene.start(), &best.plan, evidence);
     let legs = task.legs(&task.scene, &best.tools, &best.plan, &states).unwrap_or_default();
     let steps = best.plan.steps.len();
-    let line = |leg: &pushplan::task::Leg| {
-        let what = leg.around.as_ref()?;
+    let line = |leg: &Leg| {
+        // The column of the robot is obvious.
+        let what = leg.around.as_deref().filter(|what| !what.starts_with(Robot::BASE))?;
         let corners = &leg.path[1..leg.path.len() - 1];
         let by: Vec<String> = corners.iter().copied().map(point).collect();
         let way = match leg.step {

@@ -195,7 +195,7 @@ fn joined(between: [&str; 2], kind: &JointKind) -> Json {
 /// Returns `true` if an obstacle is listed in the file; the robot's own column follows from other
 /// keys.
 fn is_stated(obstacle: &&Obstacle) -> bool {
-    obstacle.name != Robot::BASE
+    !obstacle.is_robot()
 }
 
 /// Returns the allowed pushes as in a task file.

@@ -30,9 +30,12 @@ pub(super) fn task(root: &Node, file: &str, arm: Option<Arc<dyn RobotArm>>) -> O
     // Lever-ups reach close to the base, and most levering tasks state no `base`.
     if levers.is_some() && root.get("robot")?.get("base").is_none() {
         robot.base = 0.0;
+        if arm.is_none() && root.get("robot")?.get("reach")?.get("min").is_none() {
+            robot.reach_min = 0.0;
+        }
     }
     goals.iter().for_each(|goal| scene.let_fall(goal));
-    scene.obstacles.extend(robot.column());
+    scene.obstacles.extend(body(&robot, arm.as_deref()));
     scene.keep_out = keep::regions(root)?;
     if let Some(keep) = root.get("keep") {
         let within = number_or(keep, "within", KEPT_WITHIN)?;
@@ -131,7 +134,8 @@ fn max_force(node: &Node) -> Option<Option<f64>> {
 /// Builds the robot: its reach, home, hand, base and force limit.
 fn robot(node: &Node) -> Option<Robot> {
     let reach = node.get("reach")?;
-    let reach_min = number_or(reach, "min", 0.0)?;
+    let (hand, base) = (hand(node)?, base(node)?);
+    let reach_min = reach_min(node, reach)?;
     Some(Robot {
         home: match node.get("home") {
             Some(_) => home(node)?,
@@ -140,24 +144,48 @@ fn robot(node: &Node) -> Option<Robot> {
         reach_min,
         reach_max: reach.get("max")?.number()?,
         max_force: max_force(node)?,
-        hand: match node.get("hand").map(|hand| (hand, hand.text())) {
-            None => Some(Hand::default()),
-            Some((_, Some(_))) => None,
-            Some((hand, None)) => Some(Hand {
-                radius: number_or(hand, "radius", Hand::default().radius)?,
-                from: match hand.get("from") {
-                    Some(from) => Some(from.number()?),
-                    None => None,
-                },
-            }),
-        },
-        base: match node.get("base").map(|base| (base, base.text())) {
-            None => Robot::usual_base(reach_min),
-            Some((_, Some(_))) => 0.0,
-            Some((base, None)) => base.number()?,
-        },
+        hand,
+        base,
         travel: number_or(node, "travel", Robot::TRAVEL)?,
     })
+}
+
+/// Returns the fixed body of a robot: the foot of its arm, otherwise its column.
+fn body(robot: &Robot, arm: Option<&dyn RobotArm>) -> Vec<Obstacle> {
+    let foot = arm.map(RobotArm::foot).unwrap_or_default();
+    if foot.is_empty() { robot.column().into_iter().collect() } else { foot }
+}
+
+/// Returns the hand of a robot; the inner `None` if it has none.
+fn hand(robot: &Node) -> Option<Option<Hand>> {
+    let usual = Hand::default();
+    match robot.get("hand").map(|hand| (hand, hand.text())) {
+        None => Some(Some(usual)),
+        Some((_, Some(_))) => Some(None),
+        Some((hand, None)) => Some(Some(Hand {
+            radius: number_or(hand, "radius", usual.radius)?,
+            from: match hand.get("from") {
+                Some(from) => Some(from.number()?),
+                None => None,
+            },
+        })),
+    }
+}
+
+/// Returns half the side of the column of a robot, metres.
+fn base(robot: &Node) -> Option<f64> {
+    let min = robot.get("reach").and_then(|reach| reach.get("min"));
+    match robot.get("base").map(|base| (base, base.text())) {
+        None => Some(Robot::usual_base(min.and_then(Node::number))),
+        Some((_, Some(_))) => Some(0.0),
+        Some((base, None)) => base.number(),
+    }
+}
+
+/// Returns the smallest reach of a robot: the stated one, or what its column and hand need, metres.
+pub(super) fn reach_min(robot: &Node, reach: &Node) -> Option<f64> {
+    let usual = || Some(Robot::usual_reach_min(base(robot)?, hand(robot)?));
+    reach.get("min").map_or_else(usual, Node::number)
 }
 
 /// Returns the robot that represents an arm: its reach is the annulus in which the arm can hold

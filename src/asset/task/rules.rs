@@ -288,7 +288,7 @@ pub(super) fn without_arm(robot: &Node, ledger: &mut Ledger) {
 fn robot(robot: &Node, pushes: &Node, ledger: &mut Ledger) {
     let Some(reach) = robot.get("reach") else { return };
     let (Some(min), Some(max)) =
-        (number_or(reach, "min", 0.0), reach.get("max").and_then(Node::number))
+        (build::reach_min(robot, reach), reach.get("max").and_then(Node::number))
     else {
         return;
     };
@@ -308,7 +308,7 @@ fn robot(robot: &Node, pushes: &Node, ledger: &mut Ledger) {
         ledger.fault(
             node,
             format!("home is {distance:.3} m from the base, outside the reach of {min} to {max} m"),
-            "move home, or widen the reach; the base is at the origin",
+            "move home, or widen the reach; `base: none` states that no column stands at the origin",
         );
     }
 }

@@ -175,7 +175,11 @@ const MAX_FORCE: Key = Key::optional(
 pub(super) const REACH_KEY: Key = Key::required(
     "reach",
     Value::Map(&[
-        Key::optional("min", REACH, "Smallest distance from the base, metres; default 0."),
+        Key::optional(
+            "min",
+            REACH,
+            "Smallest distance from the base, metres; by default what base and hand need, 0.14.",
+        ),
         Key::required("max", REACH, "Largest distance from the base, metres."),
     ]),
     "Range of distances of the end effector from the base, which is the origin.",

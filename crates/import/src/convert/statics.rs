@@ -91,7 +91,7 @@ pub(super) fn statics<'a>(
             (true, body) => body,
         };
         // The robot's base follows from the task.
-        if what.trim_start_matches("obstacle/") == Robot::BASE {
+        if what.trim_start_matches("obstacle/").starts_with(Robot::BASE) {
             continue;
         }
         if let Outline::Plane(_) = solid.outline {

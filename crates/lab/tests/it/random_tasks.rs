@@ -92,7 +92,7 @@ fn is_of_its_kind(made: &SuiteTask) {
     assert!(way.norm() > 2.0 * goal.tolerance(), "{}: doing nothing nearly does", task.name);
     let outwards = way.dot(&start.normalize()) / way.norm();
     assert_eq!(goal.heading().is_some(), *kind == TaskKind::Heading, "{}", task.name);
-    let walls = task.scene.obstacles.iter().filter(|one| one.name != Robot::BASE);
+    let walls = task.scene.obstacles.iter().filter(|one| !one.is_robot());
     assert_eq!(walls.count(), usize::from(*kind == TaskKind::Obstacle));
     assert_eq!(task.scene.joints.len(), usize::from(*kind == TaskKind::Pair));
     let fits = match kind {

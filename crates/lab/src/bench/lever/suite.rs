@@ -76,7 +76,8 @@ impl LeverSuite {
         let goal = Goal::of(lever.plate).with(Demand::Outside(outside));
         obstacles.push(pocket(&scene.blocks));
         let scene = Scene { obstacles, ..table };
-        Task::new(format!("board-{}", index + 1), scene, Robot::reaching(0.0, 2.0), goal)
+        let robot = Robot { base: 0.0, ..Robot::reaching(0.0, 2.0) };
+        Task::new(format!("board-{}", index + 1), scene, robot, goal)
             .with_tools([TOOL])
             .levering(LeverRules::default())
             .pushing(PushRules::none())
