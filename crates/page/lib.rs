@@ -32,7 +32,11 @@ pub const SCRIPT: &str = concat!(
 pub const SOLID: &str = include_str!("script/solid.js");
 
 /// Python script that plays exported plans in MuJoCo.
-pub const REPLAY: &str = concat!(include_str!("mujoco/replay.py"), include_str!("mujoco/judge.py"));
+pub const REPLAY: &str = concat!(
+    include_str!("mujoco/replay.py"),
+    include_str!("mujoco/travel.py"),
+    include_str!("mujoco/judge.py")
+);
 
 /// Python script that plays exported motions in MuJoCo frame by frame; it uses [`REPLAY`].
 pub const FRAMES: &str = include_str!("mujoco/frames.py");

@@ -9,8 +9,8 @@ use pushplan::task::{
 };
 
 use super::find::{find_places, usual_home};
-use super::foot::foot;
 use super::follow::follow;
+use super::foot::foot;
 use super::judge::judge;
 use super::kinematics::{flange, frames};
 use super::model::Arm;

@@ -22,8 +22,9 @@
 use pushplan::asset::PlanFile;
 use pushplan::geometry::{Pose, Shape};
 use pushplan::{
-    scene::{Feet, GRAVITY, JointTrajectory, Object, Robot, Scene, TableTop, Tool},
-    task::ToolMotion,
+    scene::{Feet, GRAVITY, JointTrajectory, Object, Scene, TableTop, Tool},
+    task::{Leg, Task, ToolMotion},
+    verify::step_states,
 };
 use pushplan_arm::Arm;
 
@@ -36,7 +37,7 @@ use super::pairs;
 use super::regions;
 use super::seamless::seamless;
 use super::space::plan_mjcf;
-use super::strokes::{numeric, retreats, strokes, turns};
+use super::strokes::{numeric, retreats, strokes, travel, turns};
 use super::tool::{Taken, taken, tool};
 use super::wanted::wanted;
 use super::xml::{Xml, numbers};
@@ -95,7 +96,7 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
     let motions = file.plan.slides(&file.tools).ok_or(ExportError::Tools)?;
     let holder = match (file.task.arm.as_deref().and_then(|arm| arm.downcast()), &file.joints) {
         (Some(arm), Some(path)) => Holder::Arm(arm, path),
-        _ => Holder::Lifting(&file.task.robot),
+        _ => Holder::Lifting(&file.task, legs(file)),
     };
     written(&file.task.name, &file.task.scene, (&motions, holder), |xml| wanted(xml, file))
 }
@@ -110,12 +111,11 @@ pub fn motion_mjcf(name: &str, scene: &Scene, motion: &ToolMotion) -> Result<Str
 }
 
 /// Holder of the tools.
-#[derive(Clone, Copy)]
 enum Holder<'a> {
     /// Holder that never leaves the table.
     Table,
-    /// Hand that lifts the tools as a robot would.
-    Lifting(&'a Robot),
+    /// Hand that lifts the tools as a robot would, and their travel.
+    Lifting(&'a Task, Vec<Leg>),
     /// Arm with its joint trajectory; it has one tool.
     Arm(&'a Arm, &'a JointTrajectory),
 }
@@ -139,22 +139,26 @@ fn written(
     xml.open("custom", &[]);
     wanted(&mut xml);
     strokes(&mut xml, motions);
+    let number = |name: &str| {
+        let own = |one: &Taken| one.motion.tool.name == name;
+        tools.iter().position(own).unwrap_or(0) as f64 + 1.0
+    };
     if tools.len() > 1 {
-        let number = |motion: &ToolMotion| {
-            let own = |one: &Taken| one.motion.tool.name == motion.tool.name;
-            vec![tools.iter().position(own).unwrap_or(0) as f64 + 1.0; motion.strokes.len()]
-        };
+        let of = |motion: &ToolMotion| vec![number(&motion.tool.name); motion.strokes.len()];
         xml.comment("Tool of each push.");
-        numeric(&mut xml, "tools", &motions.iter().flat_map(number).collect::<Vec<_>>());
+        numeric(&mut xml, "tools", &motions.iter().flat_map(of).collect::<Vec<_>>());
     }
-    match holder {
+    match &holder {
         Holder::Table => (),
-        Holder::Lifting(_) => retreats(&mut xml, scene, motions),
+        Holder::Lifting(task, legs) => {
+            retreats(&mut xml, scene, motions);
+            travel(&mut xml, task, (legs, motions), number);
+        }
         Holder::Arm(_, path) => arm::way(&mut xml, path),
     }
     xml.close();
     mesh::meshes(&mut xml, &solids);
-    if let Holder::Arm(arm, _) = holder {
+    if let Holder::Arm(arm, _) = &holder {
         arm::meshes(&mut xml, arm);
     }
     xml.open("worldbody", &[]);
@@ -182,11 +186,11 @@ fn written(
     }
     let turns = turns(motions);
     for (k, one) in tools.iter().enumerate() {
-        match holder {
+        match &holder {
             Holder::Arm(arm, _) if k == 0 => arm::bodies(&mut xml, arm, &one.motion.tool),
             Holder::Arm(..) => {}
-            Holder::Lifting(robot) => {
-                let hand = robot.carried(&one.motion.tool, one.motion.lift)[0];
+            Holder::Lifting(task, _) => {
+                let hand = task.robot.carried(&one.motion.tool, one.motion.lift)[0];
                 tool(&mut xml, one, turns, hand, true);
             }
             Holder::Table => tool(&mut xml, one, turns, None, false),
@@ -200,7 +204,7 @@ fn written(
     for pair in pairs::pairs(scene, &named) {
         pair.write(&mut xml);
     }
-    if let (Holder::Arm(arm, _), Some(one)) = (holder, tools.first()) {
+    if let (Holder::Arm(arm, _), Some(one)) = (&holder, tools.first()) {
         for pair in arm::pairs(arm, scene, &one.motion.tool) {
             pair.write(&mut xml);
         }
@@ -208,6 +212,15 @@ fn written(
         arm::servos(&mut xml, arm);
     }
     Ok(xml.finish())
+}
+
+/// Returns the travel of the lifted tools of a plan, with the objects where its 3-D replay, if any,
+/// has them.
+fn legs(file: &PlanFile) -> Vec<Leg> {
+    let evidence = file.verdict.as_ref().map_or(&[][..], |verdict| &verdict.evidence);
+    let scene = &file.task.scene;
+    let states = step_states(&scene.start(), &file.plan, evidence);
+    file.task.legs(scene, &file.tools, &file.plan, &states).unwrap_or_default()
 }
 
 pub(super) fn object_name(object: &Object) -> String {

@@ -1,8 +1,9 @@
 //! Tool motions, as numbers for a script.
 
+use pushplan::geometry::{Pose, Vector};
 use pushplan::{
     scene::{Object, REST_SPEED, Scene},
-    task::{COAST_FRAME, MAX_COAST_FRAMES, ToolMotion},
+    task::{COAST_FRAME, Leg, MAX_COAST_FRAMES, Task, ToolMotion},
 };
 
 use super::xml::{Xml, numbers};
@@ -50,6 +51,36 @@ pub(super) fn retreats(xml: &mut Xml, scene: &Scene, motions: &[ToolMotion]) {
     }
     let heights = scene.objects.iter().map(Object::top);
     numeric(xml, "rise", &[heights.fold(0.0, f64::max) + ABOVE]);
+}
+
+/// Writes the travel of the lifted tools, and its height above the strokes.
+pub(super) fn travel(
+    xml: &mut Xml,
+    task: &Task,
+    (legs, motions): (&[Leg], &[ToolMotion]),
+    number: impl Fn(&str) -> f64,
+) {
+    let Some(first) = motions.first() else { return };
+    xml.comment(
+        "Travel height above the strokes, and whether tools rotate. Legs of the travel: step and \
+         tool (from 1), heading, whether it begins and ends at a step, and positions of the tool.",
+    );
+    let turned = if turns(motions) { 1.0 } else { 0.0 };
+    numeric(xml, "travel", &[(task.robot.travel - first.lift).max(0.0), turned]);
+    for (k, leg) in legs.iter().enumerate() {
+        let Some(motion) = motions.iter().find(|one| one.tool.name == leg.tool) else { continue };
+        let tool = |position| motion.tool.pose(Pose { position, heading: leg.yaw });
+        let step = leg.to.or(leg.from.map(|from| from + 1)).unwrap_or(0) + 1;
+        let flag = |end: Option<usize>| if end.is_some() { 1.0 } else { 0.0 };
+        let heading = tool(Vector::zeros()).heading;
+        let mut values =
+            vec![step as f64, number(&leg.tool), heading, flag(leg.from), flag(leg.to)];
+        for corner in &leg.path {
+            let position = tool(*corner).position;
+            values.extend([position.x, position.y]);
+        }
+        numeric(xml, &format!("leg {}", k + 1), &values);
+    }
 }
 
 /// Returns `true` if any tool has more than one heading.

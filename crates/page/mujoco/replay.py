@@ -91,6 +91,9 @@ class Replay:
         self.bodies = list(self.objects.values())
         geoms = [self.model.geom(k).name for k in range(self.model.ngeom)]
         self.kind = np.array([KINDS.index(name.split("/")[0]) for name in geoms])
+        self.others = [
+            k for k, name in enumerate(geoms) if name.split("/")[0] in ("object", "obstacle")
+        ]
         self.obstacles = sum(name.startswith("obstacle/") and name != BASE for name in geoms)
         joints = [self.model.joint(k) for k in range(self.model.njnt)]
         names = [b.name for b in bodies if b.name.split(" ")[0] == "tool"]
@@ -139,16 +142,21 @@ class Replay:
             if "tools" in self.numbers:
                 self.take(int(self.numbers["tools"][index]) - 1)
             if lifted:
+                travel(self, index + 1)
                 self.set_down(start)
             steps = math.ceil(duration / self.step - 1e-9)
             self.model.opt.timestep = duration / steps
+            every = max(1, round(steps * STRIDE / max(math.dist(start, end), STRIDE)))
             for k in range(steps):
                 self.move(start + (end - start) * k / steps, (end - start) / duration)
+                if k % every == 0:
+                    met(self, hand=True)
             if settle:
                 self.coast(end)
                 back = self.numbers.get(f"retreat {index + 1}")
                 self.lift_off(start, end, duration, 0.0 if back is None else back[0])
             lifted = settle
+        travel(self, len(self.pushes) + 1)
 
     def take(self, index):
         """Takes a tool; unused tools are kept high above the table."""
@@ -158,6 +166,7 @@ class Replay:
                     self.data.qpos[joint.qposadr[0]] = 0.0 if k == index else LAID_ASIDE
                 self.data.qvel[joint.dofadr[0]] = 0.0
         tool = self.tools[index]
+        self.tool_geoms = np.flatnonzero(self.model.geom_bodyid == tool[0].bodyid[0])
         self.tool_height = [joint for joint in tool if joint.name.endswith(" z")]
         joints = [joint for joint in tool if not joint.name.endswith(" z")]
         self.tool_position = [joint.qposadr[0] for joint in joints]

@@ -59,7 +59,10 @@ impl<'a> Places<'a> {
     ///
     /// # Errors
     /// Returns the name of the first body on the straight line if there is no path.
-    pub(super) fn path(&self, ends: [Vector; 2]) -> Result<(Vec<Vector>, Option<&'a str>), &'a str> {
+    pub(super) fn path(
+        &self,
+        ends: [Vector; 2],
+    ) -> Result<(Vec<Vector>, Option<&'a str>), &'a str> {
         let Some(what) = self.space.met(ends) else { return Ok((ends.to_vec(), None)) };
         let around = || {
             if ends[0] == self.home {
@@ -78,13 +81,8 @@ impl<'a> Places<'a> {
     /// Returns the nearest cell to home in which the tool fits and which the hand reaches.
     fn fitting(&self, hand: Space<'a>) -> Option<Vector> {
         let free = free(&hand, &self.grid);
-        let alone = Self {
-            home: self.home,
-            grid: self.grid,
-            free,
-            before: Vec::new(),
-            space: hand,
-        };
+        let alone =
+            Self { home: self.home, grid: self.grid, free, before: Vec::new(), space: hand };
         let reached = alone.flood(self.home);
         let fits = (0..self.grid.count()).filter(|&k| self.free[k] && reached[k].is_some());
         let off = |k: &usize| (self.grid.position(*k) - self.home).norm();

@@ -12,8 +12,10 @@ use super::space::{Space, is_open};
 /// Travel of a lifted tool at the travel height of its robot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Leg {
-    /// Index of the step to which it leads; the number of steps for the way home.
-    pub step: usize,
+    /// Index of the step after which it begins; `None` for home.
+    pub from: Option<usize>,
+    /// Index of the step to which it leads; `None` for home.
+    pub to: Option<usize>,
     /// Name of the tool.
     pub tool: String,
     /// Rotation of the end effector, radians.
@@ -34,10 +36,10 @@ impl Leg {
 /// A leg for which there is no path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Blocked {
-    /// Index of the step before the leg home, otherwise of the step to which the leg leads.
-    pub step: usize,
-    /// Whether the leg leads home.
-    pub back: bool,
+    /// Index of the step after which it begins; `None` for home.
+    pub from: Option<usize>,
+    /// Index of the step to which it leads; `None` for home.
+    pub to: Option<usize>,
     /// Name of the first body on the straight path.
     pub obstacle: String,
 }
@@ -51,12 +53,8 @@ struct Stance<'a> {
     end: Vector,
 }
 
-/// End of a leg.
-#[derive(Clone, Copy)]
-enum End {
-    Home,
-    At(Vector),
-}
+/// End of a leg: home, or a step and the position of the end effector there.
+type End = Option<(usize, Vector)>;
 
 impl<'a> Stance<'a> {
     /// Creates the stance of a step; `None` if its tool is not among `tools`.
@@ -178,56 +176,45 @@ impl Travel<'_> {
         before: Option<&Stance>,
         next: Option<&Stance>,
     ) -> Result<(), Blocked> {
+        let last = before.map(|before| (self.step - 1, before.end));
+        let first = next.map(|next| (self.step, next.start));
         if let (Some(before), Some(next)) = (before, next)
             && before.tool.name == next.tool.name
         {
             let [from, to] = [before.yaws[1], next.yaws[0]];
             if from == to || self.space(next.tool, to).turns(before.end, from) {
-                let ends = [End::At(before.end), End::At(next.start)];
-                legs.push(self.leg((next.tool, to), ends, self.step)?);
+                legs.push(self.leg((next.tool, to), [last, first])?);
                 return Ok(());
             }
         }
         if let Some(before) = before {
-            let ends = [End::At(before.end), End::Home];
-            let leg = self.leg((before.tool, before.yaws[1]), ends, self.step);
-            legs.push(leg.map_err(|blocked| Blocked {
-                step: self.step - 1,
-                back: true,
-                ..blocked
-            })?);
+            legs.push(self.leg((before.tool, before.yaws[1]), [last, None])?);
         }
         if let Some(next) = next {
-            let ends = [End::Home, End::At(next.start)];
-            legs.push(self.leg((next.tool, next.yaws[0]), ends, self.step)?);
+            legs.push(self.leg((next.tool, next.yaws[0]), [None, first])?);
         }
         Ok(())
     }
 
-    fn leg(&self, (tool, yaw): (&Tool, f64), ends: [End; 2], step: usize) -> Result<Leg, Blocked> {
+    fn leg(&self, (tool, yaw): (&Tool, f64), ends: [End; 2]) -> Result<Leg, Blocked> {
         let space = self.space(tool, yaw);
-        let home = home(&self.task.robot);
-        let at = |end: End, home: Vector| match end {
-            End::Home => home,
-            End::At(position) => position,
-        };
-        let straight = ends.map(|end| at(end, home));
+        let [from, to] = ends.map(|end| end.map(|(step, _)| step));
+        let at = |home: Vector| ends.map(|end| end.map_or(home, |(_, position)| position));
         let leg = |path, around: Option<&str>| Leg {
-            step,
+            from,
+            to,
             tool: tool.name.clone(),
             yaw,
             path,
             around: around.map(str::to_owned),
         };
+        let straight = at(home(&self.task.robot));
         if space.met(straight).is_none() {
             return Ok(leg(straight.to_vec(), None));
         }
         let places = Places::from_home(space, || self.space(tool, yaw).of_hand());
-        let found = places.path(ends.map(|end| at(end, places.home())));
-        found.map(|(path, around)| leg(path, around)).map_err(|what| Blocked {
-            step,
-            back: false,
-            obstacle: what.to_owned(),
-        })
+        let found = places.path(at(places.home()));
+        let blocked = |what: &str| Blocked { from, to, obstacle: what.to_owned() };
+        found.map(|(path, around)| leg(path, around)).map_err(blocked)
     }
 }

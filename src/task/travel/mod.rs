@@ -4,6 +4,8 @@
 mod detour;
 mod legs;
 mod space;
+#[cfg(test)]
+mod tests;
 
 pub use detour::Places;
 pub use legs::{Blocked, Leg};

@@ -58,9 +58,8 @@ impl<'a> Space<'a> {
         let regions = scene.keep_out.iter().filter(|region| region.tool || region.hand);
         let region = |one: &'a Region| Tall { fixed: one.into(), tool: one.tool, hand: one.hand };
         let objects = scene.objects.iter().zip(&state.poses).enumerate();
-        let objects = objects.filter(|(k, (object, _))| {
-            object.top() > travel && !scene.has_left(*k, state)
-        });
+        let objects =
+            objects.filter(|(k, (object, _))| object.top() > travel && !scene.has_left(*k, state));
         let object = |(_, (object, pose)): (usize, (&'a Object, &Pose))| {
             let footprint = object.shape.footprint();
             let fixed = Fixed { name: &object.name, footprint, pose: *pose };
@@ -73,10 +72,12 @@ impl<'a> Space<'a> {
             let ahead = Pose::new(half.x, 0.0, 0.0);
             (Mover::Tool, Footprint::Rectangle { half }, ahead)
         });
-        let parts = tool.parts().iter().map(|part| (Mover::Tool, part.footprint(), seen * part.pose));
-        let palm = task.robot.hand.map(|hand| {
-            (Mover::Hand, Footprint::Disc { radius: hand.radius }, Pose::default())
-        });
+        let parts =
+            tool.parts().iter().map(|part| (Mover::Tool, part.footprint(), seen * part.pose));
+        let palm = task
+            .robot
+            .hand
+            .map(|hand| (Mover::Hand, Footprint::Disc { radius: hand.radius }, Pose::default()));
         let handle = tool.handle().filter(|_| palm.is_some());
         let handle = handle.map(|(shape, pose, _)| (Mover::Hand, shape, seen * pose));
         let carried = parts.chain(blade).chain(palm).chain(handle).collect();

@@ -20,21 +20,15 @@ pub(in crate::verify) fn travel_faults(
 ) -> Vec<Warning> {
     let mut found = not_lifted(scene, library, plan, states);
     let blocked = task.legs(scene, library, plan, states).err();
-    found.extend(blocked.map(|Blocked { step, back, obstacle }| Warning::NoWay {
-        push: step,
-        back,
-        obstacle,
+    found.extend(blocked.map(|Blocked { from, to, obstacle }| {
+        let push = to.or(from).unwrap_or_default();
+        Warning::NoWay { push, back: to.is_none(), obstacle }
     }));
     found
 }
 
 /// Returns the pushes after which something hangs above a part of the tool.
-fn not_lifted(
-    scene: &Scene,
-    library: &[Arc<Tool>],
-    plan: &Plan,
-    states: &[State],
-) -> Vec<Warning> {
+fn not_lifted(scene: &Scene, library: &[Arc<Tool>], plan: &Plan, states: &[State]) -> Vec<Warning> {
     let mut found = Vec::new();
     let mut step = 0;
     for motion in plan.motions(library).unwrap_or_default() {
