@@ -158,8 +158,8 @@ const ROBOT: Value = Value::Map(&[
     Key::optional(
         "travel",
         SIZE,
-        "Height above the table at which the tool's underside travels between pushes, metres; the \
-         tool bypasses taller bodies. Default 0.3.",
+        "Height above the table at which the tool's underside travels between pushes, from and to \
+         home, metres; the tool bypasses taller bodies. Default 0.3.",
     ),
 ]);
 
