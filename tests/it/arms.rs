@@ -20,6 +20,7 @@ use crate::mujoco_python::python;
 use crate::program::{run, stderr};
 
 mod files;
+mod foot;
 
 /// Six joints: rotation of the base, shoulder, elbow, and a wrist with three joints.
 const URDF: &str = r#"<robot name="six">

@@ -78,6 +78,7 @@ mod tool_choice;
 mod tool_graph;
 mod transport;
 mod verification;
+mod whole_motion;
 
 /// Repository root, and the program under test.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
