@@ -21,7 +21,7 @@ pub enum PushFault {
     Direction(f64),
     /// The push has this length, longer than refinement allows, metres.
     Length(f64),
-    /// The push has this speed, faster than the task allows, m/s.
+    /// The push has this speed, not the task's, m/s.
     Speed(f64),
     /// The push has this duration, longer than [`Push::LONGEST`](crate::task::Push::LONGEST),
     /// seconds.
@@ -64,7 +64,7 @@ impl fmt::Display for PushFault {
                 write!(f, "is {:.1} mm long, longer than the task allows", length * 1e3)
             }
             Self::Speed(speed) => {
-                write!(f, "has a speed of {speed} m/s, faster than the task allows")
+                write!(f, "has a speed of {speed} m/s, not the `speed` of the task")
             }
             Self::TooLong(duration) => write!(f, "takes {duration:.0} s, too long for a replay"),
         }

@@ -36,6 +36,25 @@ pub enum ArmFault {
         /// Distance from the planned pose, metres; a rotation counts at a radius of 10 cm.
         distance: f64,
     },
+    /// The joint trajectory begins away from the arm's home, so the arm would jump.
+    NotHome {
+        /// Name of the joint.
+        joint: String,
+        /// Distance from its position at home, radians or metres.
+        distance: f64,
+    },
+    /// A joint moves at the beginning or at the end of the joint trajectory.
+    NotAtRest {
+        /// Name of the joint.
+        joint: String,
+    },
+    /// The tool would not move at the speed with which the plan was replayed.
+    Pace {
+        /// Speed of the tool, m/s.
+        speed: f64,
+        /// Speed in the plan, m/s.
+        planned: f64,
+    },
     /// No collision-free path to the push was found.
     NoWay {
         /// Names of the two bodies that collided last.
@@ -60,6 +79,19 @@ impl fmt::Display for ArmFault {
             Self::Off { distance } => {
                 write!(f, "the tool would deviate from the plan by {:.1} mm", distance * 1e3)
             }
+            Self::NotHome { joint, distance } => write!(
+                f,
+                "the joint trajectory begins with joint `{joint}` {distance:.3} (rad or m) from \
+                 `home`"
+            ),
+            Self::NotAtRest { joint } => write!(
+                f,
+                "joint `{joint}` is not at rest at the beginning or the end of the trajectory"
+            ),
+            Self::Pace { speed, planned } => write!(
+                f,
+                "the joints would move the tool at {speed:.3} m/s instead of {planned:.3} m/s"
+            ),
             Self::NoWay { between: [a, b] } => {
                 write!(
                     f,

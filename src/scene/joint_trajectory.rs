@@ -68,6 +68,9 @@ impl JointTrajectory {
             }
             before = point.time;
         }
+        if self.points.first().is_some_and(|first| first.time != 0.0) {
+            return Some("the first point must be at time 0");
+        }
         let mut last = 0;
         for [from, to] in &self.pushes {
             if *from < last || to <= from || *to >= self.points.len() {

@@ -40,12 +40,15 @@ pub fn joints(
 /// Returns a warning for every push that the arm cannot execute.
 pub(super) fn arm_faults(
     (task, situation): (&Task, &Situation),
-    tool: &Arc<Tool>,
+    tools: &[Arc<Tool>],
     plan: &Plan,
     evidence: &[Evidence],
     stated: Option<&JointTrajectory>,
 ) -> Vec<Warning> {
-    let Some(arm) = task.arm.as_deref().filter(|_| !plan.is_empty()) else { return Vec::new() };
+    let tool = tools.iter().find(|tool| tool.name == plan.tool());
+    // The rule book refuses lever-ups by an arm.
+    let asked = task.arm.as_deref().zip(tool).filter(|_| !plan.levers());
+    let Some((arm, tool)) = asked else { return Vec::new() };
     let made = match stated {
         Some(stated) => Ok(stated.clone()),
         None => match joints(task, situation, tool, plan, evidence) {

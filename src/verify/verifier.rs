@@ -136,11 +136,12 @@ impl<'a> Verifier<'a> {
         }
         let mut forbidden = rule_violations(task, scene, tools, plan);
         if in_space(task, plan) {
-            let evidence = self.replay_in_space(task, situation, (tools, plan), None);
-            forbidden.extend(hand_faults((task, scene), tools, plan, [&evidence]));
-            let states = step_states(&situation.start, plan, std::slice::from_ref(&evidence));
+            let evidence = vec![self.replay_in_space(task, situation, (tools, plan), None)];
+            forbidden.extend(hand_faults((task, scene), tools, plan, &evidence));
+            let states = step_states(&situation.start, plan, &evidence);
             forbidden.extend(travel_faults((task, scene), tools, plan, &states));
-            return Verdict::judge(forbidden, vec![evidence], task.robustness);
+            forbidden.extend(arm_faults((task, situation), tools, plan, &evidence, self.joints));
+            return Verdict::judge(forbidden, evidence, task.robustness);
         }
         let motions = plan.slides(tools).unwrap_or_default();
         let jobs = Job::sequence(situation, &motions);
@@ -153,10 +154,7 @@ impl<'a> Verifier<'a> {
         forbidden.extend(hand_faults((task, scene), tools, plan, &evidence));
         let states = step_states(&situation.start, plan, &evidence);
         forbidden.extend(travel_faults((task, scene), tools, plan, &states));
-        if let Some(first) = motions.first() {
-            let asked = (task, situation);
-            forbidden.extend(arm_faults(asked, &first.tool, plan, &evidence, self.joints));
-        }
+        forbidden.extend(arm_faults((task, situation), tools, plan, &evidence, self.joints));
         Verdict::judge(forbidden, evidence, task.robustness)
     }
 

@@ -8,7 +8,8 @@ use pushplan::scene::{ArmFault, JointTrajectory, Scene, State, Tool};
 use pushplan::task::{Plan, PushForm, PushStep};
 
 use super::kinematics::{dexterity, flange, frames};
-use super::path::DEXTERITY;
+use super::pace::{hasty, uneven, unrested};
+use super::path::{DEXTERITY, SHARE, USUAL_SPEED};
 use super::room::Room;
 
 /// Tolerance of the tool pose during a push, and the lever arm that weights rotations, metres.
@@ -20,11 +21,6 @@ const LOOK: f64 = 0.05;
 
 /// Tolerance for rounding, in radians and metres, and as a share of a speed.
 const SLACK: f64 = 1e-6;
-
-/// Thresholds for a carried tool, metres: height above the push, and sideways motion between
-/// points.
-const RAISED: f64 = 0.01;
-const SIDEWAYS: f64 = 0.005;
 
 /// Factor by which rounding may reduce the dexterity.
 const NEARER: f64 = 0.9;
@@ -47,6 +43,9 @@ pub fn judge(
     {
         return vec![(0, ArmFault::OfAnother)];
     }
+    if let Some(fault) = unrested(arm, path) {
+        return vec![(0, fault)];
+    }
     let room = Room::new(arm, scene, Some(tool));
     let ends = |k: usize| path.pushes.get(k).map_or(path.points.len() - 1, |push| push[1]);
     let mut found = Vec::new();
@@ -55,23 +54,29 @@ pub fn judge(
         // it.
         let from = if k == 0 { 0 } else { path.pushes[k - 1][1] };
         let to = if k + 1 == steps.len() { path.points.len() - 1 } else { ends(k) };
+        let [begin, end] = path.pushes[k];
         let fault = (from..to).find_map(|point| {
-            let [begin, end] = path.pushes[k];
             let pushing = (begin..end).contains(&point);
             let moved = point >= begin.midpoint(end);
             let state = states.get(k + usize::from(moved)).or(states.last());
             let objects = state.map(|state| room.objects(state)).unwrap_or_default();
             let samples = samples(path, point);
-            limits(arm, path, point, &samples)
+            let time = path.points[point + 1].time - path.points[point].time;
+            let beside = &steps[k.saturating_sub(1)..=k];
+            let lowered = lowered(arm, beside, &samples).filter(|_| !pushing);
+            limits(arm, path, point, (&samples, pushing))
                 .or_else(|| pushing.then(|| off(arm, step, &samples)).flatten())
+                .or_else(|| lowered.as_ref().and_then(|(step, poses)| hasty(step, poses, time)))
                 .or_else(|| {
-                    let carried = !pushing && is_carried(arm, step, &samples);
+                    let carried = !pushing && lowered.is_none();
                     let met = |at: &Vec<f64>| room.met(&room.stance(at), &objects, carried);
                     let between = samples.iter().find_map(met)?;
                     Some(ArmFault::Collides { between })
                 })
         });
-        let fault = fault.or_else(|| ends_off(arm, step, path, k));
+        let fault = fault
+            .or_else(|| ends_off(arm, step, path, k))
+            .or_else(|| uneven(arm, step, path, [begin, end]));
         found.extend(fault.map(|fault| (k, fault)));
     }
     let parted = |k: &usize| {
@@ -85,16 +90,22 @@ pub fn judge(
 fn samples(path: &JointTrajectory, point: usize) -> Vec<Vec<f64>> {
     let [a, b] = [&path.points[point].positions, &path.points[point + 1].positions];
     let far = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    // Joints that leave or arrive faster than on a straight way also turn around between.
+    let [from, to] = [&path.points[point], &path.points[point + 1]];
+    let speeds = from.velocities.iter().chain(&to.velocities);
+    let turned = speeds.fold(0.0, |most: f64, v| most.max(v.abs())) * (to.time - from.time) / 3.0;
+    let far = far.max(turned);
     let count = (far / LOOK).ceil().clamp(2.0, 1000.0) as usize;
     (0..=count).map(|k| path.between(point, k as f64 / count as f64)).collect()
 }
 
-/// Checks the limits of positions and speeds.
+/// Checks the limits of positions and speeds. A joint without a stated speed limit is limited
+/// between pushes, where the planner chooses its speed.
 fn limits(
     arm: &Arm,
     path: &JointTrajectory,
     point: usize,
-    samples: &[Vec<f64>],
+    (samples, pushing): (&[Vec<f64>], bool),
 ) -> Option<ArmFault> {
     let time = path.points[point + 1].time - path.points[point].time;
     let each = time / (samples.len() - 1) as f64;
@@ -105,8 +116,10 @@ fn limits(
             return Some(ArmFault::Limit { joint: joint.name.clone() });
         }
         let mean = samples.windows(2).map(|pair| (pair[1][k] - pair[0][k]).abs() / each);
-        let needed = mean.fold(path.points[point].velocities[k].abs(), f64::max);
-        if let Some(limit) = joint.max_speed
+        let ends = [point, point + 1].map(|end| path.points[end].velocities[k].abs());
+        let needed = mean.fold(ends[0].max(ends[1]), f64::max);
+        let usual = (!pushing).then_some(USUAL_SPEED / SHARE);
+        if let Some(limit) = joint.max_speed.or(usual)
             && needed > limit * (1.0 + SLACK)
         {
             return Some(ArmFault::TooFast { joint: joint.name.clone(), needed, limit });
@@ -116,23 +129,32 @@ fn limits(
 }
 
 /// Returns the pose of the end effector, at the tool's underside, for joint positions.
-fn effector(arm: &Arm, at: &[f64]) -> Pose3 {
+pub(super) fn effector(arm: &Arm, at: &[f64]) -> Pose3 {
     flange(arm, &frames(arm, at)) * arm.flange_of_tool().inverse()
 }
 
-/// Returns `true` if the tool is carried over the table.
-fn is_carried(arm: &Arm, step: &PushStep, samples: &[Vec<f64>]) -> bool {
-    let [a, b] = [&samples[0], &samples[samples.len() - 1]].map(|at| effector(arm, at).position);
-    let sideways = (a.xy() - b.xy()).norm() > SIDEWAYS;
-    sideways && a.z.min(b.z) > step.lift + RAISED
+/// Returns the push on whose line the tool is lowered, drawn back or lifted, and its poses there;
+/// `None` if it is carried elsewhere, where it must touch nothing.
+fn lowered<'a>(
+    arm: &Arm,
+    steps: &[&'a PushStep],
+    samples: &[Vec<f64>],
+) -> Option<(&'a PushStep, Vec<Pose3>)> {
+    let poses: Vec<Pose3> = samples.iter().map(|at| effector(arm, at)).collect();
+    let on_line = |step: &&&PushStep| {
+        let off = |pose: &Pose3| off_line(step, pose, pose.position.z.max(step.lift));
+        poses.iter().all(|pose| off(pose) <= OFF)
+    };
+    let step = *steps.iter().find(on_line)?;
+    Some((step, poses))
 }
 
-/// Returns the deviation of a pose from the line of a push, metres.
-fn off_line(step: &PushStep, pose: &Pose3) -> f64 {
+/// Returns the deviation of a pose from the line of a push at a height, metres.
+fn off_line(step: &PushStep, pose: &Pose3, height: f64) -> f64 {
     let push = &step.push;
     let along = (pose.position.xy() - push.start).dot(&push.heading()).clamp(0.0, push.length);
     let nearest = push.start + along * push.heading();
-    off_pose(step, pose, Vector3::new(nearest.x, nearest.y, step.lift))
+    off_pose(step, pose, Vector3::new(nearest.x, nearest.y, height))
 }
 
 /// Returns the deviation of a pose from a position and the grip of a push, metres.
@@ -144,7 +166,7 @@ fn off_pose(step: &PushStep, pose: &Pose3, position: Vector3) -> f64 {
 /// Checks that the tool follows its push, away from singular configurations.
 fn off(arm: &Arm, step: &PushStep, samples: &[Vec<f64>]) -> Option<ArmFault> {
     samples.iter().find_map(|at| {
-        let distance = off_line(step, &effector(arm, at));
+        let distance = off_line(step, &effector(arm, at), step.lift);
         if distance > OFF {
             return Some(ArmFault::Off { distance });
         }

@@ -19,7 +19,7 @@
 //! - `room`: collisions of the arm and its tool; `foot`: the obstacles that its root is.
 //! - `path`, `follow`: conversion of a plan to a
 //!   [`JointTrajectory`](pushplan::scene::JointTrajectory).
-//! - `judge`: independent check of such a trajectory from its numbers only.
+//! - `judge`, `pace`: independent check of such a trajectory from its numbers only.
 //!
 //! The response of the table is not modelled here.
 //!
@@ -42,6 +42,7 @@ mod kinematics;
 #[cfg(feature = "urdf")]
 mod mesh_files;
 mod model;
+mod pace;
 mod path;
 mod places;
 mod read;

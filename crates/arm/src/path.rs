@@ -8,7 +8,7 @@ use super::inverse::{NEAR, inverse};
 use super::kinematics::{dexterity, flange, frames};
 
 /// Maximum distance of points on a straight line of the flange, metres.
-const SPACING: f64 = 0.01;
+pub(super) const SPACING: f64 = 0.01;
 
 /// Maximum joint motion between two points of a line, radians or metres; larger motion is a jump.
 const JUMP: f64 = 0.35;
@@ -19,8 +19,8 @@ pub(super) const DEXTERITY: f64 = 0.03;
 
 /// Share of the joint speed limit used between pushes, and the default speed without a limit,
 /// radians or metres per second.
-const SHARE: f64 = 0.5;
-const USUAL_SPEED: f64 = 1.0;
+pub(super) const SHARE: f64 = 0.5;
+pub(super) const USUAL_SPEED: f64 = 1.0;
 
 /// Speed of lowering and lifting tools, m/s.
 pub(super) const GENTLE: f64 = 0.1;

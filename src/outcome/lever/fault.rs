@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LeverFault {
-    /// A depth, angle, axis or plate that the task does not allow.
+    /// A value that the task does not allow.
     ForbiddenLever {
         /// Name of the forbidden quantity.
         what: String,
@@ -19,20 +19,24 @@ pub enum LeverFault {
     TooThick,
     /// The tip would come out on the far side of the plate, or has no room beneath it.
     TooDeep,
-    /// The blade would pass through a fixed body.
+    /// The blade would pass through a fixed body, or through an object on its way to the edge.
     Meets {
         /// Name of the body that the blade meets.
         body: String,
     },
-    /// The fingers that hold the shaft behind the blade would pass through a fixed body.
+    /// The fingers that hold the shaft behind the blade would pass through another body.
     HandMeets {
         /// Name of the body that the fingers meet.
         body: String,
     },
+    /// The object lies elsewhere than the plan expects when the blade comes.
+    Displaced,
     /// The shaft would pass through the table.
     BelowTable,
     /// The end effector would leave its reach.
     OutOfReach,
+    /// The task has an arm, for which no lever-ups are planned.
+    ByArm,
     /// The tool has no blade.
     NoBlade,
     /// No support line exists for the axis of rotation.
@@ -53,6 +57,8 @@ impl fmt::Display for LeverFault {
             Self::HandMeets { body } => {
                 write!(f, "the fingers behind the blade would pass through {body}")
             }
+            Self::Displaced => f.write_str("the object does not lie where the plan expects it"),
+            Self::ByArm => f.write_str("a lever-up is planned for a hand, not for an arm's joints"),
             Self::BelowTable => f.write_str("the shaft would pass through the table"),
             Self::OutOfReach => f.write_str("the end effector would leave its reach"),
             Self::TooLong => f.write_str("the lever-up would take more than two minutes"),

@@ -28,6 +28,7 @@ pub fn rule_violations(
             }
             Step::LeverUp(step) => {
                 let fault = |fault| Warning::CannotLever { step: index, fault };
+                found.extend(lever::repeated(task, plan, (index, step)).map(fault));
                 found.extend(lever::faults(task, scene, tool, step).into_iter().map(fault));
             }
         }

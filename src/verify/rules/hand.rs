@@ -1,4 +1,5 @@
-//! Rule for the hand in a replay: hand and handle pass through no object at any frame.
+//! Rule for the hand in a replay: hand and handle pass through no object at any frame, and neither
+//! do the fingers behind a blade.
 //!
 //! The engines simulate the tool alone, so an object in the way of the hand stays where it is.
 
@@ -9,11 +10,26 @@ use crate::outcome::{Frame, Warning};
 use crate::scene::{Object, Scene, State, Tool};
 use crate::task::{Plan, Step, Task};
 
-use super::{SLACK, push, tools};
+use super::{SLACK, blade, push, tools};
 
-/// Returns the first object that the hand or handle passes through in the frames of a replay, or
-/// while the tool is set down. The frames count pushes and lever-ups as the plan does.
+/// Returns the first object that the hand passes through in the frames of a replay, or while the
+/// tool is set down. The frames count pushes and lever-ups as the plan does.
 pub(in crate::verify) fn hand_meets(
+    asked: (&Task, &Scene),
+    library: &[Arc<Tool>],
+    plan: &Plan,
+    frames: &[Frame],
+) -> Option<Warning> {
+    let levering = plan.steps.iter().enumerate().find_map(|(index, one)| {
+        let (step, blade) = (blade::lever_up(one)?, tools::named(library, one)?.blade()?);
+        let fault = blade::met((&asked.0.robot, asked.1), &blade, (index, step), frames)?;
+        Some(Warning::CannotLever { step: index, fault })
+    });
+    levering.or_else(|| pushing(asked, library, plan, frames))
+}
+
+/// Returns the first object that the hand or handle passes through during pushes.
+fn pushing(
     (task, scene): (&Task, &Scene),
     library: &[Arc<Tool>],
     plan: &Plan,

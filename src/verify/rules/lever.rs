@@ -1,14 +1,19 @@
 //! Rules of lever-ups: the task's ranges, the clearance below the edge, and the path of the blade.
 
-use crate::geometry::{Pose, Solid, Vector3};
+use crate::geometry::{Pose, Pose3, Solid, Vector, Vector3, cross};
 use crate::outcome::LeverFault;
 use crate::scene::{Blade, Obstacle, Plate, Region, Robot, Scene, Tool};
-use crate::task::{LeverRules, LeverStep, LeverUp, Pivot, Task};
+use crate::task::{LeverRules, LeverStep, LeverUp, Pivot, Plan, Task, lever_frame};
 
+use super::blade::lever_up;
 use super::{SLACK, reach};
 
-/// Depth to which a blade may touch and scratch a fixed body, metres.
-const SCRATCH: f64 = 3e-4;
+/// Depth to which a blade may touch and scratch a body, metres.
+pub(super) const SCRATCH: f64 = 3e-4;
+
+/// Largest distance of an axis that follows from the plate from the support line, as a share of the
+/// line's distance from the edge.
+const BESIDE_LINE: f64 = 0.2;
 
 /// Number of poses at which the blade is checked during the rotation.
 const LOOKS: usize = 48;
@@ -40,10 +45,17 @@ pub(super) fn faults(task: &Task, scene: &Scene, tool: &Tool, step: &LeverStep) 
         return vec![fault];
     }
     let lever = &step.lever;
-    let (mut plate, blade) = (Plate::of(scene, lever.plate), tool.blade().unwrap_or_default());
-    plate.pose = step.expected.unwrap_or(plate.pose);
+    let (plate, blade) = (expected_plate(scene, step), tool.blade().unwrap_or_default());
     let corners = plate.corners();
-    let mut found = outside_of_rules(task, lever);
+    let mut found = outside_of_rules(task, &plate, lever);
+    found.extend(task.arm.as_ref().map(|_| LeverFault::ByArm));
+    if !is_below(corners, lever) {
+        found.push(LeverFault::TooDeep);
+    }
+    // An axis above the blade would press its tip down.
+    if (0.0..=lever.depth).contains(&lever.pivot) {
+        found.push(LeverFault::NoSupport);
+    }
     let next = corners[(lever.place.edge + 1) % corners.len()];
     let side = (next - corners[lever.place.edge]).norm();
     if side * lever.place.fraction.min(1.0 - lever.place.fraction) < LeverRules::CORNER - SLACK {
@@ -56,12 +68,52 @@ pub(super) fn faults(task: &Task, scene: &Scene, tool: &Tool, step: &LeverStep) 
     found
 }
 
+/// Returns a fault if step `index` levers its object more often than the task has goals for it.
+pub(super) fn repeated(
+    task: &Task,
+    plan: &Plan,
+    (index, step): (usize, &LeverStep),
+) -> Option<LeverFault> {
+    let own = step.lever.plate;
+    let before = plan.steps[..index].iter().filter_map(lever_up);
+    let before = before.filter(|one| one.lever.plate == own).count();
+    let goals = task.goals.iter().filter(|goal| goal.movers().contains(&own)).count();
+    let what = "second lever-up of an object".to_owned();
+    (before > 0 && before >= goals).then_some(LeverFault::ForbiddenLever { what })
+}
+
+/// Returns the levered object at the pose to which the blade goes.
+pub(super) fn expected_plate(scene: &Scene, step: &LeverStep) -> Plate {
+    let plate = Plate::of(scene, step.lever.plate);
+    Plate { pose: step.expected.unwrap_or(plate.pose), ..plate }
+}
+
+/// Returns the poses of a blade that comes from behind to its pose below the edge.
+pub(super) fn approach(lying: Pose3, retreat: f64) -> impl Iterator<Item = Pose3> {
+    (0..=LOOKS).map(move |k| {
+        let mut pose = lying;
+        let left = retreat * (1.0 - k as f64 / LOOKS as f64);
+        pose.position -= pose.rotation * Vector3::x() * left;
+        pose
+    })
+}
+
+/// Returns `true` if the tip of the blade lies below the plate.
+fn is_below(corners: &[Vector], lever: &LeverUp) -> bool {
+    let tip = lever_frame(corners, lever.place).point(Vector::new(lever.depth, 0.0));
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).all(|(from, to)| cross(to - from, tip - from) > 0.0)
+}
+
 /// Returns the values of a lever-up that the task does not allow.
-fn outside_of_rules(task: &Task, lever: &LeverUp) -> Vec<LeverFault> {
+fn outside_of_rules(task: &Task, plate: &Plate, lever: &LeverUp) -> Vec<LeverFault> {
     let rules = task.lever_rules();
+    let same = |one: f64, other: f64| (one - other).abs() <= SLACK;
     let pivot = rules.pivots.iter().any(|pivot| match pivot {
-        Pivot::Auto => lever.pivot > 0.0,
-        Pivot::At(distance) => (distance - lever.pivot).abs() <= SLACK,
+        Pivot::Auto => plate
+            .auto_pivot(lever.place)
+            .is_some_and(|line| (lever.pivot - line).abs() <= BESIDE_LINE * line + SLACK),
+        Pivot::At(distance) => same(*distance, lever.pivot),
     });
     let within = |value: f64, [low, high]: [f64; 2]| value >= low - SLACK && value <= high + SLACK;
     let allowed = [
@@ -70,7 +122,9 @@ fn outside_of_rules(task: &Task, lever: &LeverUp) -> Vec<LeverFault> {
         (within(lever.depth, rules.depth), "depth"),
         (within(lever.angle, rules.angle), "angle"),
         (pivot, "pivot"),
-        (lever.speed <= rules.speed + SLACK, "speed"),
+        (same(lever.speed, rules.speed), "speed"),
+        (same(lever.hold, rules.hold), "hold"),
+        (same(lever.retreat, rules.retreat), "retreat"),
     ];
     let forbidden = allowed.into_iter().filter(|(allowed, _)| !allowed);
     forbidden.map(|(_, what)| LeverFault::ForbiddenLever { what: what.to_owned() }).collect()
@@ -96,13 +150,7 @@ fn on_the_way(
         }
     };
     // The blade approaches from behind, then rotates and retreats.
-    let (lying, span) = (at(0.0), lever.duration());
-    let coming = (0..LOOKS).map(|k| {
-        let mut pose = lying;
-        let left = lever.retreat * (1.0 - k as f64 / LOOKS as f64);
-        pose.position -= pose.rotation * Vector3::x() * left;
-        pose
-    });
+    let (coming, span) = (approach(at(0.0), lever.retreat), lever.duration());
     let going = (0..=2 * LOOKS).map(|k| at(span * k as f64 / (2 * LOOKS) as f64));
     for pose in coming.chain(going) {
         reach::blade_out_of_reach(robot, blade, &pose).into_iter().for_each(&mut note);

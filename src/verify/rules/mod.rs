@@ -4,6 +4,7 @@
 //! Each rule handles every type of step, and all rules apply to every plan. They are independent of
 //! the planner's own rules, which are stricter because the planner keeps safety distances.
 
+mod blade;
 mod book;
 mod clearance;
 mod hand;

@@ -10,7 +10,7 @@ use super::SLACK;
 /// degrees).
 const TURNED: f64 = 0.436_333;
 
-/// Largest ratio by which refinement may lengthen a push.
+/// Largest ratio by which refinement may lengthen a placed push.
 const LONGER: f64 = 1.5;
 
 /// Returns the grip yaws, the sequences of pushes and the single pushes that the task does not
@@ -96,8 +96,9 @@ fn form_fault(
     if !headings.iter().any(turned) {
         return Some(PushFault::Direction(push.direction));
     }
-    if push.length > LONGER * rules.length + SLACK {
+    let longest = if chained { rules.length } else { LONGER * rules.length };
+    if push.length > longest + SLACK {
         return Some(PushFault::Length(push.length));
     }
-    (push.speed > rules.speed + SLACK).then_some(PushFault::Speed(push.speed))
+    ((push.speed - rules.speed).abs() > SLACK).then_some(PushFault::Speed(push.speed))
 }
