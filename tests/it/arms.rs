@@ -62,10 +62,10 @@ tools: [stick, paddle]
 goal: {object: can, position: [0.55, 0.1], tolerance: 0.02}
 "#;
 
-const ROBOT: &str = "{urdf: six.urdf, flange: tool0, tool_mount: {length: 0.1}}";
+pub const ROBOT: &str = "{urdf: six.urdf, flange: tool0, tool_mount: {length: 0.1}}";
 
 /// Creates a folder with the arm and a task of a robot.
-fn folder(robot: &str) -> TempDir {
+pub fn folder(robot: &str) -> TempDir {
     pushplan_arm::install();
     let folder = TempDir::new().expect("a folder");
     write(folder.path(), "six.urdf", URDF);
@@ -82,7 +82,7 @@ fn at(folder: &Path, name: &str) -> String {
 }
 
 /// Solves the task of a folder.
-fn solve(folder: &Path) -> Output {
+pub fn solve(folder: &Path) -> Output {
     let (task, out) = (at(folder, "push.yaml"), at(folder, "out"));
     run(&["solve", &task, "--out", &out, "--effort", "draft", "--quiet"])
 }

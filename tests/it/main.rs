@@ -17,6 +17,7 @@ mod constraints;
 mod coverages;
 mod design;
 mod doors;
+mod edited_plans;
 mod english;
 mod export;
 mod facade;

@@ -104,6 +104,7 @@ fn each_property_of_a_push_has_its_rule() {
     assert_eq!(long, fault(PushFault::Length(0.35)));
     let fast = changed(&task, |step| step.push.speed = 5.0);
     assert_eq!(fast, fault(PushFault::Speed(5.0)));
+    assert_eq!(changed(&task, |step| step.push.speed = 0.05), fault(PushFault::Speed(0.05)));
     let turned = changed(&task, |step| step.grip_yaw = 0.3);
     assert_eq!(turned, Warning::ForbiddenYaw { yaw: 0.3 });
     let far = changed(&task, |step| step.push.start.x = 0.85);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::model::Arm;
 use pushplan::geometry::{Pose3, Vector3};
 use pushplan::scene::{ArmFault, JointTrajectory, Scene, State, Tool};
-use pushplan::task::{Plan, PushForm, PushStep};
+use pushplan::task::{Plan, Push, PushForm, PushStep};
 
 use super::kinematics::{dexterity, flange, frames};
 use super::pace::{hasty, uneven, unrested};
@@ -55,6 +55,8 @@ pub fn judge(
         let from = if k == 0 { 0 } else { path.pushes[k - 1][1] };
         let to = if k + 1 == steps.len() { path.points.len() - 1 } else { ends(k) };
         let [begin, end] = path.pushes[k];
+        let start = PushStep { push: Push { length: 0.0, ..step.push }, ..(*step).clone() };
+        let before = [&steps[k.saturating_sub(1)..k], &[&start]].concat();
         let fault = (from..to).find_map(|point| {
             let pushing = (begin..end).contains(&point);
             let moved = point >= begin.midpoint(end);
@@ -62,7 +64,8 @@ pub fn judge(
             let objects = state.map(|state| room.objects(state)).unwrap_or_default();
             let samples = samples(path, point);
             let time = path.points[point + 1].time - path.points[point].time;
-            let beside = &steps[k.saturating_sub(1)..=k];
+            // The tool is drawn back along the last push, and lowered at the start of the next.
+            let beside = if point < begin { &before[..] } else { &steps[k..=k] };
             let lowered = lowered(arm, beside, &samples).filter(|_| !pushing);
             limits(arm, path, point, (&samples, pushing))
                 .or_else(|| pushing.then(|| off(arm, step, &samples)).flatten())

@@ -8,10 +8,9 @@ pass.
     python3 crates/lab/benches/edited.py OUT/plans --out OUT/edited --verify target/release/pushplan
 
 Every edit is wrong by construction, so `verify` must reject it or refuse the file. Each field of a
-push, of a lever-up and of a joint trajectory has its edits. A plan is edited where it has such
-steps, and all edits get the same number of plans as far as there are enough. The edits of joints
-need plans of tasks with an arm. Lengths are in metres. Only Python is needed. The exit code is 0 if
-none passes.
+push, of a lever-up and of a joint trajectory has its edits, which take turns until there are enough
+edited plans. Joints are edited in plans of tasks with an arm. Only Python is needed. The exit code
+is 0 if none passes.
 """
 
 import argparse

@@ -37,7 +37,7 @@ def a_little_off(joints, points, push):
 
 def stretched(share, first=False):
     def edit(joints, points, push):
-        """Stretches all times, or those of the first push alone."""
+        """Stretches all times, or the time of the first push alone."""
         times = [point["time"] for point in points]
         for k in range(1, len(points)):
             span = times[k] - times[k - 1]

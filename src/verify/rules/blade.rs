@@ -7,7 +7,7 @@
 use crate::geometry::{Pose3, Solid, wrap_angle};
 use crate::outcome::{Frame, LeverFault};
 use crate::scene::{Blade, Plate, Robot, Scene, State};
-use crate::task::{LeverStep, Step};
+use crate::task::LeverStep;
 
 use super::lever::{SCRATCH, approach, expected_plate};
 
@@ -47,14 +47,6 @@ pub(super) fn met(
     let own = frames[begin..].iter().take_while(|frame| frame.stroke == index);
     let mut going = own.filter_map(|frame| Some((frame.blade.as_ref()?, &frame.state)));
     coming.or_else(|| going.find_map(|(pose, state)| held(pose, state)))
-}
-
-/// Returns the lever-up of a step, if it is one.
-pub(super) fn lever_up(step: &Step) -> Option<&LeverStep> {
-    match step {
-        Step::LeverUp(step) => Some(step),
-        Step::Push(_) => None,
-    }
 }
 
 /// Returns `true` if the object does not lie where the plan expects it.

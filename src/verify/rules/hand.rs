@@ -21,7 +21,8 @@ pub(in crate::verify) fn hand_meets(
     frames: &[Frame],
 ) -> Option<Warning> {
     let levering = plan.steps.iter().enumerate().find_map(|(index, one)| {
-        let (step, blade) = (blade::lever_up(one)?, tools::named(library, one)?.blade()?);
+        let Step::LeverUp(step) = one else { return None };
+        let blade = tools::named(library, one)?.blade()?;
         let fault = blade::met((&asked.0.robot, asked.1), &blade, (index, step), frames)?;
         Some(Warning::CannotLever { step: index, fault })
     });

@@ -5,14 +5,13 @@ use crate::outcome::LeverFault;
 use crate::scene::{Blade, Obstacle, Plate, Region, Robot, Scene, Tool};
 use crate::task::{LeverRules, LeverStep, LeverUp, Pivot, Plan, Task, lever_frame};
 
-use super::blade::lever_up;
 use super::{SLACK, reach};
 
 /// Depth to which a blade may touch and scratch a body, metres.
 pub(super) const SCRATCH: f64 = 3e-4;
 
-/// Largest distance of an axis that follows from the plate from the support line, as a share of the
-/// line's distance from the edge.
+/// Largest distance of an axis that follows from the plate from the support line, relative to the
+/// distance of that line from the edge.
 const BESIDE_LINE: f64 = 0.2;
 
 /// Number of poses at which the blade is checked during the rotation.
@@ -75,8 +74,7 @@ pub(super) fn repeated(
     (index, step): (usize, &LeverStep),
 ) -> Option<LeverFault> {
     let own = step.lever.plate;
-    let before = plan.steps[..index].iter().filter_map(lever_up);
-    let before = before.filter(|one| one.lever.plate == own).count();
+    let before = plan.first(index).lever_steps().filter(|one| one.lever.plate == own).count();
     let goals = task.goals.iter().filter(|goal| goal.movers().contains(&own)).count();
     let what = "second lever-up of an object".to_owned();
     (before > 0 && before >= goals).then_some(LeverFault::ForbiddenLever { what })
