@@ -88,7 +88,7 @@ fn every_number_of_a_lever_up_follows_the_rules_of_its_task() {
         (LeverUp { pivot: 0.16, ..lever() }, what("pivot")),
         (LeverUp { angle: 0.1, ..lever() }, what("angle")),
         (LeverUp { depth: 0.004, ..lever() }, what("depth")),
-        (LeverUp { depth: 0.11, ..lever() }, cannot(0, LeverFault::NoSupport)),
+        (LeverUp { pivot: 0.005, ..lever() }, cannot(0, LeverFault::NoSupport)),
         (LeverUp { depth: 0.13, ..lever() }, cannot(0, LeverFault::TooDeep)),
     ] {
         let broken = levering(change);

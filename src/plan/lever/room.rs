@@ -121,13 +121,9 @@ impl<'a> LeverRoom<'a> {
         {
             return Some(LeverFault::OutOfReach);
         }
-        // The volume swept along the shaft is a longer blade.
-        let swept = |pose: &Pose3| {
-            let size = [blade.length + lever.retreat, blade.width, blade.thickness];
-            Solid::cuboid(size, &shaft(pose, 0.5 * lever.retreat))
-        };
         for pose in [&lying, &end] {
-            let fault = self.meets(&swept(pose)).or_else(|| self.held(pose));
+            let swept = blade.swept(pose, lever.retreat);
+            let fault = self.meets(&swept).or_else(|| self.held(pose, lever.retreat));
             if fault.is_some() {
                 return fault;
             }
@@ -140,24 +136,24 @@ impl<'a> LeverRoom<'a> {
             if !reached(&pose) {
                 return Some(LeverFault::OutOfReach);
             }
-            let size = [blade.length, blade.width, blade.thickness];
-            let solid = Solid::cuboid(size, &pose);
+            let solid = blade.swept(&pose, 0.0);
             // An arc in front of the blade rises up to a quarter rotation.
             let rises = lever.pivot > 0.0 && lever.angle <= 0.5 * PI;
             if rises && solid.lowest() > self.top {
                 break;
             }
-            if let Some(fault) = self.meets(&solid).or_else(|| self.held(&pose)) {
+            if let Some(fault) = self.meets(&solid).or_else(|| self.held(&pose, 0.0)) {
                 return Some(fault);
             }
         }
         None
     }
 
-    /// Returns a fault if the fingers that hold the blade at `pose` meet a body.
-    fn held(&self, pose: &Pose3) -> Option<LeverFault> {
+    /// Returns a fault if the fingers that hold the blade at `pose`, and draw it back by `back`
+    /// metres, meet a body.
+    fn held(&self, pose: &Pose3, back: f64) -> Option<LeverFault> {
         self.task.robot.hand?;
-        let fingers = self.blade.fingers(pose);
+        let fingers = self.blade.fingers(pose, back);
         let mut all = self.bodies.iter().chain(&self.beside);
         let met = all.find(|(_, solid)| solid.depth(&fingers) > SLACK)?;
         Some(LeverFault::HandMeets { body: met.0.clone() })

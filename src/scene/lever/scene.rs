@@ -25,14 +25,27 @@ impl Blade {
     /// Reach of the fingers beyond the shaft on both sides and along it, metres.
     const FINGERS: f64 = 0.02;
 
-    /// Returns the space that any hand needs to hold the shaft behind the blade, whose centre is at
-    /// `pose`: fingers on both sides, no higher than the shaft. The wrist is left out, because it
-    /// may come from above or from behind.
-    pub fn fingers(&self, pose: &Pose3) -> Solid {
-        let mut held = *pose;
-        held.position -= pose.rotation * Vector3::x() * (0.5 * self.length + Self::FINGERS);
-        Solid::cuboid([2.0 * Self::FINGERS, 2.0 * Self::FINGERS, self.thickness], &held)
+    /// Returns the space of the blade with its centre at `pose`, and on its way when it is drawn
+    /// back along its shaft by `back` metres.
+    pub fn swept(&self, pose: &Pose3, back: f64) -> Solid {
+        let middle = drawn_back(pose, 0.5 * back);
+        Solid::cuboid([self.length + back, self.width, self.thickness], &middle)
     }
+
+    /// Returns the space that any hand needs to hold the shaft behind the blade, whose centre is at
+    /// `pose`, and on its way when the blade is drawn back by `back` metres: fingers on both sides,
+    /// no higher than the shaft. The wrist is left out, because it may come from above or from
+    /// behind.
+    pub fn fingers(&self, pose: &Pose3, back: f64) -> Solid {
+        let held = drawn_back(pose, 0.5 * self.length + Self::FINGERS + 0.5 * back);
+        let wide = 2.0 * Self::FINGERS;
+        Solid::cuboid([wide + back, wide, self.thickness], &held)
+    }
+}
+
+/// Returns a pose moved back along its x axis, metres.
+fn drawn_back(pose: &Pose3, back: f64) -> Pose3 {
+    Pose3 { position: pose.position - pose.rotation * Vector3::x() * back, ..*pose }
 }
 
 impl Scene {

@@ -9,7 +9,7 @@ use crate::outcome::{Frame, LeverFault};
 use crate::scene::{Blade, Plate, Robot, Scene, State};
 use crate::task::LeverStep;
 
-use super::lever::{SCRATCH, approach, expected_plate};
+use super::lever::{SCRATCH, expected_plate};
 
 /// Largest distance of an object from the pose to which the blade goes, metres, and the lever arm
 /// that weights rotations. The planner takes the pose from a replay.
@@ -34,19 +34,16 @@ pub(super) fn met(
         return Some(LeverFault::Displaced);
     }
     let others = Others::new(scene, lever.plate);
-    let held = |pose: &Pose3, state: &State| {
-        let body = robot.hand.and_then(|_| others.met(state, &blade.fingers(pose)));
-        body.map(|body| LeverFault::HandMeets { body })
-    };
     let lying = lever.blade_on(&plate, blade, 0.0);
-    let coming = approach(lying, lever.retreat).find_map(|pose| {
-        let solid = Solid::cuboid([blade.length, blade.width, blade.thickness], &pose);
-        let meets = others.met(before, &solid).map(|body| LeverFault::Meets { body });
-        meets.or_else(|| held(&pose, before))
-    });
+    if let Some(body) = others.met(before, &blade.swept(&lying, lever.retreat)) {
+        return Some(LeverFault::Meets { body });
+    }
+    robot.hand?;
+    let coming = others.met(before, &blade.fingers(&lying, lever.retreat));
     let own = frames[begin..].iter().take_while(|frame| frame.stroke == index);
     let mut going = own.filter_map(|frame| Some((frame.blade.as_ref()?, &frame.state)));
-    coming.or_else(|| going.find_map(|(pose, state)| held(pose, state)))
+    let met = |(pose, state)| others.met(state, &blade.fingers(pose, 0.0));
+    coming.or_else(|| going.find_map(met)).map(|body| LeverFault::HandMeets { body })
 }
 
 /// Returns `true` if the object does not lie where the plan expects it.

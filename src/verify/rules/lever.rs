@@ -1,6 +1,6 @@
 //! Rules of lever-ups: the task's ranges, the clearance below the edge, and the path of the blade.
 
-use crate::geometry::{Pose, Pose3, Solid, Vector, Vector3, cross};
+use crate::geometry::{Pose, Solid, Vector, Vector3, cross};
 use crate::outcome::LeverFault;
 use crate::scene::{Blade, Obstacle, Plate, Region, Robot, Scene, Tool};
 use crate::task::{LeverRules, LeverStep, LeverUp, Pivot, Plan, Task, lever_frame};
@@ -86,16 +86,6 @@ pub(super) fn expected_plate(scene: &Scene, step: &LeverStep) -> Plate {
     Plate { pose: step.expected.unwrap_or(plate.pose), ..plate }
 }
 
-/// Returns the poses of a blade that comes from behind to its pose below the edge.
-pub(super) fn approach(lying: Pose3, retreat: f64) -> impl Iterator<Item = Pose3> {
-    (0..=LOOKS).map(move |k| {
-        let mut pose = lying;
-        let left = retreat * (1.0 - k as f64 / LOOKS as f64);
-        pose.position -= pose.rotation * Vector3::x() * left;
-        pose
-    })
-}
-
 /// Returns `true` if the tip of the blade lies below the plate.
 fn is_below(corners: &[Vector], lever: &LeverUp) -> bool {
     let tip = lever_frame(corners, lever.place).point(Vector::new(lever.depth, 0.0));
@@ -148,11 +138,17 @@ fn on_the_way(
         }
     };
     // The blade approaches from behind, then rotates and retreats.
-    let (coming, span) = (approach(at(0.0), lever.retreat), lever.duration());
+    let (lying, span) = (at(0.0), lever.duration());
+    let coming = (0..LOOKS).map(|k| {
+        let mut pose = lying;
+        let left = lever.retreat * (1.0 - k as f64 / LOOKS as f64);
+        pose.position -= pose.rotation * Vector3::x() * left;
+        pose
+    });
     let going = (0..=2 * LOOKS).map(|k| at(span * k as f64 / (2 * LOOKS) as f64));
     for pose in coming.chain(going) {
         reach::blade_out_of_reach(robot, blade, &pose).into_iter().for_each(&mut note);
-        let solid = Solid::cuboid([blade.length, blade.width, blade.thickness], &pose);
+        let solid = blade.swept(&pose, 0.0);
         if solid.lowest() < -SCRATCH {
             note(LeverFault::BelowTable);
         }
@@ -161,7 +157,7 @@ fn on_the_way(
                 note(LeverFault::Meets { body: name.clone() });
             }
             let held = robot.hand.is_some() && *by_hand;
-            if held && block.depth(&blade.fingers(&pose)) > SCRATCH {
+            if held && block.depth(&blade.fingers(&pose, 0.0)) > SCRATCH {
                 note(LeverFault::HandMeets { body: name.clone() });
             }
         }
