@@ -27,8 +27,10 @@ pub enum Class {
     Fails,
     /// The plan works as written, but too seldom when perturbed.
     Fragile,
-    /// The plan passes near the edge of the tolerance, or presses harder than an ordinary arm. One
-    /// more push may improve it.
+    /// The plan passes, but presses harder than an ordinary arm or far harder than friction
+    /// requires. One more push may improve it.
+    Forced,
+    /// The plan passes near the edge of the tolerance. One more push may improve it.
     Edge,
     /// The plan passes well inside the tolerance.
     Passes,
@@ -43,7 +45,7 @@ impl Class {
         match self {
             Class::Fails => PlanStatus::FailedVerification,
             Class::Fragile => PlanStatus::Fragile,
-            Class::Edge | Class::Passes | Class::Safe => PlanStatus::Solved,
+            Class::Forced | Class::Edge | Class::Passes | Class::Safe => PlanStatus::Solved,
         }
     }
 }
@@ -65,12 +67,10 @@ impl Grade {
         let spatial = verdict.nominal(Engine::Spatial);
         let score = spatial.map_or(f64::INFINITY, |e| e.outcome.score());
         let robustness = verdict.robustness.unwrap_or(1.0);
-        let presses = |evidence: &Evidence| {
-            evidence.warnings.iter().any(|warning| matches!(warning, Warning::HardPush { .. }))
-        };
+        let presses = |evidence: &Evidence| evidence.warnings.iter().any(Warning::presses);
         let presses = Engine::ALL.into_iter().filter_map(|one| verdict.nominal(one)).any(presses);
         let class = match (verdict.passed, verdict.nominal_ok()) {
-            (true, _) if presses => Class::Edge,
+            (true, _) if presses => Class::Forced,
             (true, _) if robustness == 1.0 && score <= WELL_INSIDE => Class::Safe,
             (true, _) if score <= WELL_INSIDE => Class::Passes,
             (true, _) => Class::Edge,

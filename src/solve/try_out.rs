@@ -18,7 +18,7 @@ const PERTURBED_SHARE: f64 = 0.375;
 pub(super) fn try_out(board: &mut Blackboard, candidates: Candidates) {
     refine_and_verify(board, &candidates);
     let began = Instant::now();
-    board.verification.settle(&mut board.attempts, Class::Edge);
+    board.verification.settle(&mut board.attempts, Class::Forced);
     board.timing.verification += began.elapsed().as_secs_f64();
     if candidates.hardenable {
         board.searched = Some(candidates);

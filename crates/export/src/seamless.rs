@@ -7,9 +7,9 @@
 use pushplan::geometry::{Footprint, Pose, Shape, Vector};
 use pushplan::scene::Piece;
 
-/// Distance by which a covered face is moved back, metres: deeper than soft contacts, and within the
-/// tolerance of a tool's size. At the outer corner of two pieces both faces are covered, so that a
-/// square of this size is missing there. With 1 cm, cans rolled into the notch and jammed.
+/// Distance by which a covered face is moved back, metres: deeper than soft contacts, and within
+/// the tolerance of the sizes. At the outer corner of two pieces both faces are covered, so that
+/// a square of this size is missing there. With 1 cm, cans rolled into the notch and jammed.
 const BACK: f64 = 1e-3;
 
 /// Tolerance for rounding, metres.
