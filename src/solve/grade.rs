@@ -114,3 +114,33 @@ impl Grade {
         self.class.cmp(&other.class).then(robust).then(other.score.total_cmp(&self.score))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::outcome::{Miss, Outcome, Perturbation, Warning};
+    use crate::scene::State;
+
+    /// Returns the grade of a plan that ends at this score, with these warnings of both replays.
+    fn grade(score: f64, warnings: &[Warning]) -> Grade {
+        let miss = Miss { object: 0, error: 0.0, heading_error: None, score, raised: None };
+        let evidence = Engine::ALL.map(|engine| Evidence {
+            engine,
+            perturbation: Perturbation::Nominal,
+            outcome: Outcome { state: State::default(), goals: vec![miss], reached: true },
+            warnings: warnings.to_vec(),
+            force: None,
+            trajectory: None,
+        });
+        Grade::of(&Verdict::judge(Vec::new(), evidence.to_vec(), 0.75))
+    }
+
+    #[test]
+    fn a_squeeze_ranks_behind_an_end_near_the_edge_of_the_tolerance() {
+        let squeezed = Warning::Squeezed { against: None, needed: 40.0, friction: 2.0 };
+        let [edge, forced] = [grade(0.9, &[]), grade(0.1, &[squeezed])];
+        assert_eq!((edge.class, forced.class), (Class::Edge, Class::Forced));
+        assert!(edge.compare(&forced).is_gt() && forced.class > Class::Fragile);
+        assert_eq!(forced.class.status(), PlanStatus::Solved);
+    }
+}

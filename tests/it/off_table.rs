@@ -142,16 +142,16 @@ fn inside(solution: &Solution) -> f64 {
     0.95 - end.poses[1].position.x
 }
 
-/// Half a centimetre from the edge is within the uncertainty of both: the plan is fragile if the
-/// goal allows nothing else, and otherwise the can ends farther inside.
+/// Three millimetres from the edge are within the uncertainty: the plan is fragile if the goal
+/// allows nothing else, and otherwise the can ends farther inside.
 #[test]
 fn objects_end_safely_inside_the_edge_where_the_goal_allows_it() {
     let goal = |tolerance: f64| {
-        task(&format!("{{object: can, position: [0.945, -0.25], tolerance: {tolerance}}}"))
+        task(&format!("{{object: can, position: [0.947, -0.25], tolerance: {tolerance}}}"))
     };
-    let close = solved(&goal(0.003));
+    let close = solved(&goal(0.002));
     assert_eq!(close.status, PlanStatus::Fragile);
-    assert!(inside(&close) < 0.008, "{}", inside(&close));
+    assert!(inside(&close) < 0.006, "{}", inside(&close));
     let near = |one: &Warning| matches!(one, Warning::NearEdge { object, .. } if object == "can");
     assert!(close.warnings.iter().any(near), "{:?}", close.warnings);
     let free = solved(&goal(0.02));
