@@ -43,6 +43,8 @@ fn refine_and_verify(board: &mut Blackboard, candidates: &Candidates) {
     board.timing.refinement += began.elapsed().as_secs_f64();
     board.reporter.refined(queue.first().map(|&k| &board.attempts.list[k]));
 
+    let may_be_longer =
+        *pushes < query.task.pushes.max_count && board.attempts.best_class() < Class::Forced;
     let mut failed = Vec::new();
     for batch in 0..most.div_ceil(at_once) {
         if batch > 0 {
@@ -65,7 +67,9 @@ fn refine_and_verify(board: &mut Blackboard, candidates: &Candidates) {
         let enough = board.verification.perturbed - before >= most_perturbed;
         // If even the most promising plan is blocked, a few attempts suffice.
         let behind = is_behind(board.attempts.list[leader].score);
-        let forced = board.attempts.best_class() == Class::Forced && batch + 1 >= FORCED_BATCHES;
+        let forced = may_be_longer
+            && board.attempts.best_class() == Class::Forced
+            && batch + 1 >= FORCED_BATCHES;
         if board.verification.promising.is_some() || safe || enough || behind || forced {
             break;
         }
