@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::{
     graph::{Batch, Correction},
     network::{Buffers, Forward, Head, PredictorWeights},
-    outcome::{Record, Trajectory, Warning},
+    outcome::{Record, Spread, Trajectory, Warning},
     rollout::{PairMeans, RollSettings, Roller, reachable},
     scene::{CORRECTED, ModelKind, ModelSpec, OTHER_OBJECTS, Scene, Stride, TableFit},
     task::Job,
@@ -21,10 +21,6 @@ use super::{EffectModel, ModelError, Quantiles, Trust, measured::measured, trust
 /// a batch of the search occupies at most two cores. The number is fixed, so that results do not
 /// depend on the number of threads.
 const CHUNK: usize = 64;
-
-/// Expected error from which a prediction is doubtful, metres: the 90th percentile for similar
-/// pushes. Three times the usual value.
-const DOUBTFUL: f64 = 0.02;
 
 /// A model that predicts with trained weights.
 #[derive(Clone)]
@@ -128,7 +124,7 @@ impl Network {
         for (object, spread) in all.filter(|(_, spread)| spread.position > 0.0) {
             *spread += doubt.floor();
             let within = spread.within_90().position;
-            if within > DOUBTFUL {
+            if within > Spread::DOUBTFUL {
                 warnings.push(Warning::Doubtful { object: object.name.clone(), within });
             }
         }

@@ -9,6 +9,7 @@ mod object_rules;
 mod push_fault;
 mod range_warnings;
 mod result;
+mod squeeze;
 mod trajectory;
 mod verdict;
 mod warning;
@@ -19,6 +20,7 @@ pub use lever::{LEVER_FRAMES, LeverFault, LeverTrajectory, LeverWarning, has_sli
 pub use object_rules::ObjectRules;
 pub use push_fault::PushFault;
 pub use result::{Miss, Outcome};
+pub use squeeze::squeeze;
 pub use trajectory::{Contact, Force, Frame, Record, Spread, Trajectory};
 pub use verdict::{Evidence, Perturbation, Reason, Verdict, never_on};
 pub use warning::Warning;

@@ -61,6 +61,10 @@ pub struct Spread {
 }
 
 impl Spread {
+    /// Expected error from which a prediction is doubtful, metres: the 90th percentile for similar
+    /// pushes. Three times the usual value.
+    pub const DOUBTFUL: f64 = 0.02;
+
     /// Returns the 90 % quantile of an exponential distribution of errors: ln 10 times the mean.
     pub fn within_90(&self) -> Self {
         let factor = std::f64::consts::LN_10;

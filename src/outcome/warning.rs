@@ -242,6 +242,24 @@ pub enum Warning {
         /// The unknown quantities.
         unknown: Unknowns,
     },
+    /// The tool pressed far harder than friction requires, so that it squeezes an object against
+    /// something fixed.
+    Squeezed {
+        /// Name of the obstacle, if a moved object touches one.
+        #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
+        against: Option<String>,
+        /// Force, newtons, to within a factor of two.
+        needed: f64,
+        /// Friction of all moved objects, newtons.
+        friction: f64,
+    },
+    /// An object ends closer to the edge of the table than the uncertainty of its final position.
+    NearEdge {
+        /// Name of the object.
+        object: String,
+        /// Distance of its centre from the edge, metres.
+        inside: f64,
+    },
 }
 
 impl Warning {
@@ -259,6 +277,8 @@ impl Warning {
                 | Warning::Differs { .. }
                 | Warning::Simulated { .. }
                 | Warning::HardPush { .. }
+                | Warning::Squeezed { .. }
+                | Warning::NearEdge { .. }
                 | Warning::Slipped { .. }
                 | Warning::Fell { .. }
                 | Warning::Guessed { .. }
@@ -303,6 +323,12 @@ impl Warning {
         )
     }
 
+    /// Returns `true` if the tool presses harder than an ordinary arm, or far harder than friction
+    /// requires.
+    pub fn presses(&self) -> bool {
+        matches!(self, Warning::HardPush { .. } | Warning::Squeezed { .. })
+    }
+
     /// Returns a short name of the warning, for tables.
     pub fn word(&self) -> &'static str {
         match self {
@@ -321,6 +347,8 @@ impl Warning {
             Warning::Hangs { .. } => "hanging",
             Warning::TooMuchForce { .. } => "too much force",
             Warning::HardPush { .. } => "high force",
+            Warning::Squeezed { .. } => "squeezed",
+            Warning::NearEdge { .. } => "near the table's edge",
             Warning::OutOfReach { .. } => "out of reach",
             Warning::ThroughObstacle { .. } => "through an obstacle",
             Warning::HandThrough { .. } => "hand through an obstacle",

@@ -68,7 +68,7 @@ impl Attempt {
                 after,
                 aimed_at: aims[0]
                     .position()
-                    .filter(|_| !task.goals.iter().eq(aims) && !aims[0].is_relation()),
+                    .filter(|_| !query.goals().iter().eq(aims) && !aims[0].is_relation()),
                 rounds: rounds.into_iter().skip(1).map(bare).collect(),
             },
             aims: aims.to_vec(),

@@ -77,7 +77,7 @@ impl<'a> Blackboard<'a> {
     pub fn wants_longer(&self, depth: usize) -> bool {
         let wanted = self.attempts.best.is_none_or(|(grade, k)| match grade.class {
             Class::Fails | Class::Fragile => true,
-            Class::Edge => depth <= self.attempts.list[k].plan.steps.len(),
+            Class::Forced | Class::Edge => depth <= self.attempts.list[k].plan.steps.len(),
             Class::Passes | Class::Safe => false,
         });
         wanted && self.verification.promising != Some(true) && !self.query.progress.cancelled()

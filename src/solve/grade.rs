@@ -27,8 +27,10 @@ pub enum Class {
     Fails,
     /// The plan works as written, but too seldom when perturbed.
     Fragile,
-    /// The plan passes near the edge of the tolerance, or presses harder than an ordinary arm. One
-    /// more push may improve it.
+    /// The plan passes, but presses harder than an ordinary arm or far harder than friction
+    /// requires. One more push may improve it.
+    Forced,
+    /// The plan passes near the edge of the tolerance. One more push may improve it.
     Edge,
     /// The plan passes well inside the tolerance.
     Passes,
@@ -43,7 +45,7 @@ impl Class {
         match self {
             Class::Fails => PlanStatus::FailedVerification,
             Class::Fragile => PlanStatus::Fragile,
-            Class::Edge | Class::Passes | Class::Safe => PlanStatus::Solved,
+            Class::Forced | Class::Edge | Class::Passes | Class::Safe => PlanStatus::Solved,
         }
     }
 }
@@ -65,12 +67,10 @@ impl Grade {
         let spatial = verdict.nominal(Engine::Spatial);
         let score = spatial.map_or(f64::INFINITY, |e| e.outcome.score());
         let robustness = verdict.robustness.unwrap_or(1.0);
-        let presses = |evidence: &Evidence| {
-            evidence.warnings.iter().any(|warning| matches!(warning, Warning::HardPush { .. }))
-        };
+        let presses = |evidence: &Evidence| evidence.warnings.iter().any(Warning::presses);
         let presses = Engine::ALL.into_iter().filter_map(|one| verdict.nominal(one)).any(presses);
         let class = match (verdict.passed, verdict.nominal_ok()) {
-            (true, _) if presses => Class::Edge,
+            (true, _) if presses => Class::Forced,
             (true, _) if robustness == 1.0 && score <= WELL_INSIDE => Class::Safe,
             (true, _) if score <= WELL_INSIDE => Class::Passes,
             (true, _) => Class::Edge,
@@ -112,5 +112,35 @@ impl Grade {
     pub fn compare(&self, other: &Self) -> Ordering {
         let robust = self.robustness.total_cmp(&other.robustness);
         self.class.cmp(&other.class).then(robust).then(other.score.total_cmp(&self.score))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::outcome::{Miss, Outcome, Perturbation, Warning};
+    use crate::scene::State;
+
+    /// Returns the grade of a plan that ends at this score, with these warnings of both replays.
+    fn grade(score: f64, warnings: &[Warning]) -> Grade {
+        let miss = Miss { object: 0, error: 0.0, heading_error: None, score, raised: None };
+        let evidence = Engine::ALL.map(|engine| Evidence {
+            engine,
+            perturbation: Perturbation::Nominal,
+            outcome: Outcome { state: State::default(), goals: vec![miss], reached: true },
+            warnings: warnings.to_vec(),
+            force: None,
+            trajectory: None,
+        });
+        Grade::of(&Verdict::judge(Vec::new(), evidence.to_vec(), 0.75))
+    }
+
+    #[test]
+    fn a_squeeze_ranks_behind_an_end_near_the_edge_of_the_tolerance() {
+        let squeezed = Warning::Squeezed { against: None, needed: 40.0, friction: 2.0 };
+        let [edge, forced] = [grade(0.9, &[]), grade(0.1, &[squeezed])];
+        assert_eq!((edge.class, forced.class), (Class::Edge, Class::Forced));
+        assert!(edge.compare(&forced).is_gt() && forced.class > Class::Fragile);
+        assert_eq!(forced.class.status(), PlanStatus::Solved);
     }
 }

@@ -7,6 +7,7 @@
 //! a user, and [`manual_lever`] a plan of a lever-up.
 
 mod adaptive_verify;
+mod aims;
 mod arm_feasibility;
 mod attempts;
 mod blackboard;

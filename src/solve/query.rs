@@ -7,6 +7,7 @@ use crate::progress::Progress;
 use crate::scene::{Situation, Tool};
 use crate::task::{Goal, Job, Task};
 
+use super::aims::first_aims;
 use super::planner::Planner;
 use super::typical::{error_p95, typical};
 
@@ -36,9 +37,9 @@ impl<'a> Query<'a> {
         Workspace { task: self.task, tools: self.tools }
     }
 
-    /// Returns the task's goals.
+    /// Returns the first aims of refinement for the task's goals.
     pub fn goals(&self) -> Vec<Goal> {
-        self.task.goals.clone()
+        first_aims(self.task)
     }
 
     /// Returns the number of plans that are verified together.

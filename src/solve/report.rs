@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::outcome::Warning;
+use crate::outcome::{Verdict, Warning};
 use crate::plan::{Search, bare};
 use crate::progress::Instant;
-use crate::scene::{Models, Tool};
+use crate::scene::{Engine, Models, Tool};
 use crate::sim::LeverSimulator;
 use crate::task::{Plan, Step};
 
@@ -124,7 +124,7 @@ fn predicted(query: &Query, attempts: Vec<Attempt>) -> (Vec<RankedPlan>, Vec<War
                 (one.trajectory, one.outcome, one.warnings)
             }
         };
-        first.get_or_insert(warnings);
+        first.get_or_insert_with(|| [pressing(attempt.verdict.as_ref()), warnings].concat());
         let mut ranked = RankedPlan {
             plan: attempt.plan,
             tools: attempt.tools,
@@ -138,6 +138,26 @@ fn predicted(query: &Query, attempts: Vec<Attempt>) -> (Vec<RankedPlan>, Vec<War
         plans.push(ranked);
     }
     (plans, first.unwrap_or_default())
+}
+
+/// Returns the warnings of a plan's nominal replays that the tool presses hard or that an object
+/// ends near the edge of the table; of each kind the one with the largest force.
+fn pressing(verdict: Option<&Verdict>) -> Vec<Warning> {
+    let force = |warning: &Warning| match warning {
+        Warning::HardPush { needed } | Warning::Squeezed { needed, .. } => *needed,
+        _ => 0.0,
+    };
+    let nominal = Engine::ALL.into_iter().filter_map(|engine| verdict?.nominal(engine));
+    let mut found: Vec<Warning> = Vec::new();
+    for warning in nominal.flat_map(|evidence| &evidence.warnings) {
+        let reported = warning.presses() || matches!(warning, Warning::NearEdge { .. });
+        match found.iter_mut().find(|known| known.is_like(warning)) {
+            Some(known) if force(known) < force(warning) => *known = warning.clone(),
+            None if reported => found.push(warning.clone()),
+            _ => (),
+        }
+    }
+    found
 }
 
 /// Returns `true` if a plan is predicted to be clearly better than the plan without steps.

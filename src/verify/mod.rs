@@ -5,10 +5,15 @@
 //! the plane are replayed in 3-D only. This module is independent of how plans are found.
 
 mod arm;
+mod conditions;
+mod force;
+mod inner_corners;
 mod perturbation;
 mod rules;
 mod sequential_test;
 mod space;
+mod table_edge;
+mod tightened;
 mod verifier;
 
 pub use arm::{joints, step_states};

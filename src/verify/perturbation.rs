@@ -13,13 +13,13 @@ use crate::{
 };
 
 /// Largest shift of an object at the start along each axis, metres.
-const SHIFT: f64 = 1e-3;
+pub(super) const SHIFT: f64 = 1e-3;
 
 /// Largest rotation of an object at the start, radians (one degree).
-const TURN: f64 = std::f64::consts::PI / 180.0;
+pub(super) const TURN: f64 = std::f64::consts::PI / 180.0;
 
 /// Largest relative change of every friction value.
-const FRICTION: f64 = 0.1;
+pub(super) const FRICTION: f64 = 0.1;
 
 /// Uncertainty of the table's edge, metres. In MuJoCo, all objects pushed to 1 and 3 mm from the
 /// edge fell, and none at 5 mm.

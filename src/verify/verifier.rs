@@ -11,14 +11,17 @@ use crate::sim::{LeverSimulator, Simulator};
 use crate::{
     outcome::{Evidence, Outcome, Perturbation, Record, Trajectory, Verdict, Warning, never_on},
     scene::{Engine, JointTrajectory, Scene, Situation, Tool},
-    task::{Job, Plan, Task, ToolMotion},
+    task::{Job, Plan, Task},
 };
 
 use super::arm::{arm_faults, step_states};
-use super::perturbation::{lifted, perturbed, wary};
+use super::conditions::Conditions;
+use super::force::force_warnings;
+use super::perturbation::{perturbed, wary};
 use super::rules::{hand_meets, rule_violations, travel_faults, unplayable};
 use super::sequential_test;
 use super::space;
+use super::table_edge::near_edge;
 
 /// Processor time of a 2-D time step for each object, seconds: 1 us measured with one object and
 /// 0.5 with nine.
@@ -27,9 +30,6 @@ const PLANAR_STEP: f64 = 1e-6;
 /// Processor time of a 3-D time step for each object, seconds: 6 us measured with one object and 5
 /// with nine.
 const SPATIAL_STEP: f64 = 6e-6;
-
-/// Sustained force of an ordinary arm, newtons. Arms that work beside people have 50 to 150 N.
-const ORDINARY_ARM: f64 = 150.0;
 
 /// Settings of the verification.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -189,14 +189,12 @@ impl<'a> Verifier<'a> {
         let Some(motions) = plan.slides(tools) else {
             return Verdict::judge(forbidden, evidence, task.robustness);
         };
-        let scene = wary(task, &situation.scene);
-        let motions: Vec<ToolMotion> =
-            motions.into_iter().map(|motion| lifted(&scene, motion)).collect();
         let (nominal, replays): (Vec<Evidence>, Vec<Evidence>) =
             evidence.into_iter().partition(|one| one.perturbation == Perturbation::Nominal);
         let (mut planar, mut spatial): (Vec<Evidence>, Vec<Evidence>) =
             replays.into_iter().partition(|one| one.engine == Engine::Planar);
-        let asked = (task, situation, &scene, &motions[..]);
+        let conditions = Conditions::of(task, &situation.scene, motions, &nominal);
+        let asked = (task, situation, &conditions);
         // The 2-D engine comes first. If the plan fails there, the slower engine is skipped.
         self.add_perturbed(&self.planar, asked, &mut planar);
         let refused = never(&planar, task)
@@ -212,7 +210,7 @@ impl<'a> Verifier<'a> {
     fn add_perturbed(
         &self,
         engine: &Simulator,
-        asked: (&Task, &Situation, &Scene, &[ToolMotion]),
+        asked: (&Task, &Situation, &Conditions),
         own: &mut Vec<Evidence>,
     ) {
         let least = self.settings.replays;
@@ -241,7 +239,7 @@ impl<'a> Verifier<'a> {
     fn perturbed(
         &self,
         engine: &Simulator,
-        (task, situation, scene, motions): (&Task, &Situation, &Scene, &[ToolMotion]),
+        (task, situation, conditions): (&Task, &Situation, &Conditions),
         draws: Range<usize>,
     ) -> Vec<Evidence> {
         draws
@@ -251,6 +249,8 @@ impl<'a> Verifier<'a> {
                 if self.progress.cancelled() {
                     return stopped(engine, task, situation, perturbation);
                 }
+                let scene = &conditions.scene;
+                let motions = conditions.motions(draw);
                 let jobs = perturbed(situation, motions, self.settings.seed, draw);
                 // An observation with errors is still the pose from which `keep` counts.
                 let start = jobs.first().map_or(&situation.start, |job| &job.start);
@@ -346,17 +346,7 @@ fn evidence(
     perturbation: Perturbation,
 ) -> Evidence {
     let nominal = perturbation == Perturbation::Nominal;
-    if let (Some(force), Some(limit)) = (trajectory.force, task.robot.max_force)
-        && force.lasting > limit
-    {
-        let needed = force.lasting;
-        trajectory.warnings.push(Warning::TooMuchForce { object: None, needed, limit });
-    }
-    if let (Some(force), None) = (trajectory.force, task.robot.max_force)
-        && force.lasting > ORDINARY_ARM
-    {
-        trajectory.warnings.push(Warning::HardPush { needed: force.lasting });
-    }
+    trajectory.warnings.extend(force_warnings(task, scene, &trajectory));
     // Falls that a goal requires need no warning.
     let wanted = |name: &str| {
         let goals = task.goals.iter().filter(|goal| goal.falls());
@@ -366,10 +356,14 @@ fn evidence(
     let reported =
         |warning: &Warning| !matches!(warning, Warning::Fell { object } if wanted(object));
     trajectory.warnings.retain(reported);
+    let mut outcome = Outcome::judge(scene, task, &trajectory);
+    let near = near_edge(task, scene, trajectory.outcome());
+    outcome.reached &= nominal || near.is_none();
+    trajectory.warnings.extend(near);
     Evidence {
         engine: engine.engine(),
         perturbation,
-        outcome: Outcome::judge(scene, task, &trajectory),
+        outcome,
         warnings: trajectory.warnings.clone(),
         force: trajectory.force,
         trajectory: nominal.then_some(trajectory),

@@ -72,6 +72,7 @@ mod sharding;
 mod shards;
 mod simulation;
 mod solving;
+mod squeezes;
 mod table_fit;
 mod things;
 mod tool_change;

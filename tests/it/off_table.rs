@@ -1,7 +1,7 @@
 //! Goals off the table: objects that are pushed over an edge and fall.
 
 use pushplan::asset::ToolLibrary;
-use pushplan::solve::PlanStatus;
+use pushplan::solve::{PlanStatus, Solution};
 use pushplan::{EffectModel, Job, Obstacle, Pose, Push, Simulated, Simulator, ToolMotion, Vector};
 use pushplan::{
     outcome::{Record, Warning},
@@ -133,6 +133,31 @@ fn nothing_else_may_fall() {
     task.scene.objects[0].may_fall = true;
     let (_, warned) = pushed(&task, Engine::Spatial, 0.25);
     assert!(!warned.iter().any(off), "{warned:?}");
+}
+
+/// Returns the distance of the can from the far edge at the end of the nominal 3-D replay, metres.
+fn inside(solution: &Solution) -> f64 {
+    let verdict = solution.plans[0].verdict.as_ref().expect("replayed");
+    let end = &verdict.nominal(Engine::Spatial).expect("replayed").outcome.state;
+    0.95 - end.poses[1].position.x
+}
+
+/// Three millimetres from the edge are within the uncertainty: the plan is fragile if the goal
+/// allows nothing else, and otherwise the can ends farther inside.
+#[test]
+fn objects_end_safely_inside_the_edge_where_the_goal_allows_it() {
+    let goal = |tolerance: f64| {
+        task(&format!("{{object: can, position: [0.947, -0.25], tolerance: {tolerance}}}"))
+    };
+    let close = solved(&goal(0.002));
+    assert_eq!(close.status, PlanStatus::Fragile);
+    assert!(inside(&close) < 0.006, "{}", inside(&close));
+    let near = |one: &Warning| matches!(one, Warning::NearEdge { object, .. } if object == "can");
+    assert!(close.warnings.iter().any(near), "{:?}", close.warnings);
+    let free = solved(&goal(0.02));
+    assert_eq!(free.status, PlanStatus::Solved);
+    assert!(inside(&free) > 0.006, "{}", inside(&free));
+    assert!(!free.warnings.iter().any(near), "{:?}", free.warnings);
 }
 
 #[test]

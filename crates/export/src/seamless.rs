@@ -7,8 +7,10 @@
 use pushplan::geometry::{Footprint, Pose, Shape, Vector};
 use pushplan::scene::Piece;
 
-/// Distance by which a covered face is moved back, metres: more than the look-ahead of engines.
-const BACK: f64 = 0.01;
+/// Distance by which a covered face is moved back, metres: deeper than soft contacts, and within
+/// the tolerance of the sizes. At the outer corner of two pieces both faces are covered, so that
+/// a square of this size is missing there. With 1 cm, cans rolled into the notch and jammed.
+const BACK: f64 = 1e-3;
 
 /// Tolerance for rounding, metres.
 const SLACK: f64 = 1e-6;
@@ -83,8 +85,8 @@ mod tests {
         // Joined, the parts are an L: the end belongs to the bar, the back to the handle.
         let ((handle, at), (bar, middle)) = (size("handle"), size("bar"));
         let spans = [at.x - handle[0] / 2.0, at.x + handle[0] / 2.0];
-        assert!(spans[0].abs() < 1e-9 && (spans[1] - 0.42).abs() < 1e-9, "{spans:?}");
+        assert!(spans[0].abs() < 1e-9 && (spans[1] - 0.429).abs() < 1e-9, "{spans:?}");
         let spans = [middle.y - bar[1] / 2.0, middle.y + bar[1] / 2.0];
-        assert!((spans[0] + 0.005).abs() < 1e-9 && (spans[1] - 0.185).abs() < 1e-9, "{spans:?}");
+        assert!((spans[0] + 0.014).abs() < 1e-9 && (spans[1] - 0.185).abs() < 1e-9, "{spans:?}");
     }
 }

@@ -126,6 +126,18 @@ impl fmt::Display for Warning {
                 "pushing takes about {needed:.0} N for longer than an impact, more than most arms \
                  can exert; state `robot.max_force`"
             ),
+            Warning::Squeezed { against, needed, friction } => write!(
+                f,
+                "pushing takes about {needed:.0} N for longer than an impact, but friction only \
+                 {friction:.1} N: an object is squeezed against {}; leave more room there",
+                against.as_deref().unwrap_or("something fixed")
+            ),
+            Warning::NearEdge { object, inside } => write!(
+                f,
+                "{object} ends {:.1} mm inside the edge of the table, where it may fall; move its \
+                 goal farther inside",
+                inside * 1e3
+            ),
             Warning::OutOfReach { push } => {
                 write!(f, "the end effector leaves the robot's reach in push {}", push + 1)
             }

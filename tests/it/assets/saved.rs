@@ -159,7 +159,7 @@ fn damaged_plan_files_are_refused() {
       help: the file is damaged; create it again
     "#);
     assert_snapshot!(damaged("\"not_at_rest\"", "\"not_at_all\""), @r#"
-    p.json:1:685: error: unknown variant `not_at_all`, expected one of `outside_range`, `declined`, `not_at_rest`, `doubtful`, `not_finite`, `stopped`, `toppled`, `jammed`, `off_table`, `not_kept`, `kept_out`, `fell`, `hangs`, `too_much_force`, `hard_push`, `out_of_reach`, `through_obstacle`, `hand_through`, `no_way`, `arm`, `forbidden_tool`, `forbidden_yaw`, `too_many_pushes`, `too_many_tool_changes`, `forbidden_push`, `cannot_lever`, `slipped`, `strained`, `set_down_on`, `pressed`, `overlap`, `loose_joint`, `differs`, `simulated`, `refused`, `guessed`
+    p.json:1:685: error: unknown variant `not_at_all`, expected one of `outside_range`, `declined`, `not_at_rest`, `doubtful`, `not_finite`, `stopped`, `toppled`, `jammed`, `off_table`, `not_kept`, `kept_out`, `fell`, `hangs`, `too_much_force`, `hard_push`, `out_of_reach`, `through_obstacle`, `hand_through`, `no_way`, `not_lifted`, `arm`, `forbidden_tool`, `forbidden_yaw`, `too_many_pushes`, `too_many_tool_changes`, `forbidden_push`, `cannot_lever`, `slipped`, `strained`, `set_down_on`, `pressed`, `overlap`, `loose_joint`, `differs`, `simulated`, `refused`, `guessed`, `squeezed`, `near_edge`
       help: the file is damaged or from another version; create it again
     "#);
     assert_snapshot!(damaged("\"kind\":\"plan\"", "\"kind\":\"trajectory\""), @r#"
