@@ -21,4 +21,4 @@ pub use push_fault::PushFault;
 pub use result::{Miss, Outcome};
 pub use trajectory::{Contact, Force, Frame, Record, Spread, Trajectory};
 pub use verdict::{Evidence, Perturbation, Reason, Verdict, never_on};
-pub use warning::Warning;
+pub use warning::{SHOWN_WARNINGS, Warning, warning_lines};

@@ -30,7 +30,6 @@ mod query;
 mod rank;
 mod refinement;
 mod refiner;
-mod relaxation;
 mod report;
 mod retry;
 mod settings;

@@ -61,7 +61,8 @@ fn refine_and_verify(board: &mut Blackboard, candidates: &Candidates) {
         let enough = board.verification.perturbed - before >= most_perturbed;
         // If even the most promising plan is blocked, a few attempts suffice.
         let behind = is_behind(board.attempts.list[leader].score);
-        if board.verification.promising.is_some() || safe || enough || behind {
+        let heavy = board.attempts.all_too_heavy();
+        if board.verification.promising.is_some() || safe || enough || behind || heavy {
             break;
         }
         failed = indices;
