@@ -45,7 +45,9 @@ pub(super) fn is_worth_verifying(
     }
     let error_p95 = error_p95.unwrap_or(UNKNOWN_ERROR).min(UNKNOWN_ERROR);
     let near = |goal: &Goal| {
-        let error_p95 = error_p95.max(HAIR * goal.tolerance());
+        // A goal without a place has no finite tolerance.
+        let hair = Some(HAIR * goal.tolerance()).filter(|hair| hair.is_finite());
+        let error_p95 = error_p95.max(hair.unwrap_or(0.0));
         let radius = task.scene.objects[goal.object].shape.footprint().mean_radius();
         let end = End::resting(goal.object, &evaluation.outcome);
         goal.demands.iter().map(Demand::kind).all(|kind| {

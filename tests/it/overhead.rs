@@ -193,7 +193,7 @@ fn a_second_push_is_made_where_the_lifted_tool_gets_to() {
     assert!(forbidden(&wall(0.5, 0.3)).is_empty(), "there is a way around the wall");
     let blocked = forbidden(&wall(0.5, 3.0));
     assert!(
-        matches!(&blocked[..], [Warning::NoWay { push: 1, obstacle }] if obstacle == "shelf"),
+        matches!(&blocked[..], [Warning::NoWay { push: 1, obstacle, .. }] if obstacle == "shelf"),
         "{blocked:?}"
     );
     let higher = wall(0.5, 3.0).replace("max: 0.95}", "max: 0.95}, travel: 0.6");

@@ -149,7 +149,7 @@ fn tool_hand_and_lifted_tool_keep_clear_of_obstacles() {
     assert!(broken(&beam, pushes()).contains(&hand), "{:?}", broken(&beam, pushes()));
     // A wall across the whole reach that is too high to travel over.
     let wall = with("wall", [2.0, 0.01, 0.5], [0.0, 0.25], 0.0);
-    let no_way = Warning::NoWay { push: 1, obstacle: named("wall") };
+    let no_way = Warning::NoWay { push: 1, back: false, obstacle: named("wall") };
     assert_eq!(changed(&wall, |step| step.push.start.y = 0.5), no_way);
 }
 

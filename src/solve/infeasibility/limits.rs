@@ -282,7 +282,8 @@ fn hand<'a>(case: &'a Case<'a>) -> Vec<Relaxed<'a>> {
 
 fn travel<'a>(case: &'a Case<'a>) -> Vec<Relaxed<'a>> {
     let (scene, allowed) = (&case.task.scene, case.task.robot.travel);
-    let obstacles = scene.obstacles.iter().map(|obstacle| obstacle.z + obstacle.size[2]);
+    let obstacles = scene.obstacles.iter().filter(|obstacle| !obstacle.is_robot());
+    let obstacles = obstacles.map(|obstacle| obstacle.z + obstacle.size[2]);
     let highest = obstacles.chain(scene.objects.iter().map(|object| object.top()));
     let needed = ((highest.fold(0.0, f64::max) + ABOVE) / STEP).ceil() * STEP;
     if needed <= allowed {
