@@ -23,4 +23,4 @@ pub use result::{Miss, Outcome};
 pub use squeeze::squeeze;
 pub use trajectory::{Contact, Force, Frame, Record, Spread, Trajectory};
 pub use verdict::{Evidence, Perturbation, Reason, Verdict, never_on};
-pub use warning::Warning;
+pub use warning::{SHOWN_WARNINGS, Warning, warning_lines};

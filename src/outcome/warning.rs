@@ -6,7 +6,10 @@ use super::{LeverFault, PushFault};
 use crate::scene::planar_only;
 use crate::scene::{ArmFault, ModelSpec, Quantity, Unknowns};
 
+mod shown;
 mod words;
+
+pub use shown::{SHOWN_WARNINGS, warning_lines};
 
 /// Fact that lowers the trust in a result without being an error.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

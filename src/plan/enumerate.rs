@@ -11,6 +11,7 @@ use crate::{
 };
 
 use super::cost_to_go::CostToGo;
+use super::fine_offsets::between;
 use super::node::Node;
 use super::reached::Reached;
 use super::scored::Scores;
@@ -70,19 +71,33 @@ pub(super) struct Extension {
     pub push: Push,
     /// Index of its score.
     pub scored: Option<usize>,
+    /// Whether its offset lies between coarse ones.
+    pub fine: bool,
     /// Minimum remaining distance if the object moved straight along with the push: the order in
     /// which pushes are tried.
     pub promise: f64,
 }
 
+/// Resolution of the lateral offsets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Resolution {
+    /// Number of coarse offsets, if the task lists none.
+    pub coarse: usize,
+    /// Whether offsets between infeasible coarse ones are added.
+    pub fine: bool,
+}
+
+/// A push and its extension, or the reason why it cannot be made.
+type Tried = (CandidatePush, Result<Extension, Infeasible>);
+
 /// Returns all pushes that can continue the given nodes, in the order of nodes, grips, directions,
-/// parts and offsets.
+/// parts and offsets. Fine offsets of a grip follow its coarse ones.
 pub(super) fn extensions(
     workspace: &Workspace,
     field: &CostToGo,
     nodes: &[Node],
     (grips, reached): (&Grips, &Reached),
-    offsets: usize,
+    offsets: Resolution,
     statistics: &mut SearchStatistics,
     scores: &mut Scores,
 ) -> Vec<Extension> {
@@ -91,30 +106,37 @@ pub(super) fn extensions(
         .enumerate()
         .flat_map(|(k, node)| grips.next(node).into_iter().map(move |grip| (k, grip)))
         .collect();
-    let found: Vec<Vec<(CandidatePush, Result<Extension, Infeasible>)>> = work
+    let found: Vec<[Vec<Tried>; 2]> = work
         .par_iter()
         .map(|&(node, grip)| {
             let movers = field.movers(&nodes[node].state);
             // A compound object can be pushed at any of its solids.
             let scene = &workspace.task.scene;
             let movers = movers.into_iter().flat_map(|k| [k].into_iter().chain(scene.parts_of(k)));
-            let tried = |object| pushes(workspace, &nodes[node], (grip, object), offsets);
-            movers
-                .flat_map(tried)
-                .map(|push| {
-                    let from = (&nodes[node], node);
-                    (push, extend(workspace, (field, reached), from, push))
-                })
-                .collect()
+            let tried = |object| pushes(workspace, &nodes[node], (grip, object), offsets.coarse);
+            let extended = |push| {
+                let from = (&nodes[node], node);
+                (push, extend(workspace, (field, reached), from, push))
+            };
+            let coarse: Vec<Tried> = movers.flat_map(tried).map(extended).collect();
+            let adapts = offsets.fine && workspace.task.pushes.offsets == Offsets::Effort;
+            let refused = |(push, tried): &Tried| (*push, tried.as_ref().err().copied());
+            let fine = match adapts {
+                true => between(&coarse.iter().map(refused).collect::<Vec<_>>()),
+                false => Vec::new(),
+            };
+            [coarse, fine.into_iter().map(extended).collect()]
         })
         .collect();
     let mut kept = Vec::new();
-    for ((_, grip), group) in work.into_iter().zip(found) {
-        let first = scores.place(grip, group.iter().map(|(push, _)| *push));
+    for ((_, grip), [coarse, fine]) in work.into_iter().zip(found) {
+        let (first, count) =
+            (scores.place(grip, coarse.iter().map(|(push, _)| *push)), coarse.len());
         let mut places = HashSet::new();
-        for (k, (_, result)) in group.into_iter().enumerate() {
+        for (k, (_, result)) in coarse.into_iter().chain(fine).enumerate() {
             statistics.considered += 1;
-            let scored = first.map(|first| first + k);
+            // Fine offsets differ from state to state, so that they have no common score.
+            let scored = first.filter(|_| k < count).map(|first| first + k);
             match result {
                 Err(reason) => {
                     statistics.refuse(reason);
@@ -125,7 +147,7 @@ pub(super) fn extensions(
                     let push = &extension.push;
                     let place = (grid(push.start.x), grid(push.start.y), push.direction.to_bits());
                     if places.insert(place) {
-                        kept.push(Extension { scored, ..extension });
+                        kept.push(Extension { scored, fine: k >= count, ..extension });
                     } else {
                         statistics.repeated += 1;
                     }
@@ -207,7 +229,7 @@ fn extend(
     let promise = (0..=2)
         .map(|k| field.carried(pushed, push.heading() * (push.length * k as f64 / 2.0)))
         .fold(f64::INFINITY, f64::min);
-    Ok(Extension { node: index, planned, push, scored: None, promise })
+    Ok(Extension { node: index, planned, push, scored: None, fine: false, promise })
 }
 
 /// Returns `true` if an object topples instead of sliding, for any direction of a push at the

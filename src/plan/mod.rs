@@ -10,6 +10,7 @@ mod candidate;
 mod cost_to_go;
 mod enumerate;
 mod evaluate;
+mod fine_offsets;
 mod goal_errors;
 mod harden;
 mod infeasible;

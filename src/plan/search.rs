@@ -3,7 +3,10 @@
 //!
 //! Every rollout is recorded frame by frame. The tool may stop after any frame, so that one rollout
 //! also scores every shorter push. The budget counts rollouts and not seconds, and ties go to the
-//! lower index, so that a search is deterministic on any machine.
+//! lower index, so that a search is deterministic on any machine. [`variants`] are searches for
+//! other kinds of plans.
+
+mod variants;
 
 use std::sync::Arc;
 
@@ -18,7 +21,7 @@ use crate::{
 
 use super::beam::{Stop, choose};
 use super::cost_to_go::CostToGo;
-use super::enumerate::{Extension, Grips, extensions, keep_promising};
+use super::enumerate::{Extension, Grips, Resolution, extensions, keep_promising};
 use super::node::Node;
 use super::reached::Reached;
 use super::rollouts::{single_push, stops};
@@ -27,7 +30,7 @@ use super::scored::Scores;
 use super::statistics::SearchStatistics;
 use super::uncertainty::{Uncertainty, room};
 use super::workspace::MIN_LENGTH;
-use super::{Candidate, Rollouts, ScoredPush, SearchResult, SweptRegion, Workspace};
+use super::{Candidate, Rollouts, ScoredPush, SearchResult, Workspace};
 
 /// Number of rollouts per batch: enough for every thread, and few enough that their recorded frames
 /// stay in the cache.
@@ -41,6 +44,8 @@ const BEAM_STRIDE: usize = 5;
 pub struct SearchSettings {
     /// Number of lateral offsets per contacting face, if the task lists none.
     pub offsets: usize,
+    /// Whether offsets between infeasible ones are tried as well.
+    pub fine_offsets: bool,
     /// Number of states from which sequences are continued.
     pub beam: usize,
     /// Maximum number of rollouts for each further push of a sequence.
@@ -92,30 +97,6 @@ impl<'a> Search<'a> {
         Self::from_start(workspace, situation, settings, laid, grips)
     }
 
-    /// Returns a new search for plans that may change the tool and grip before every push. Returns
-    /// `None` if this makes no difference.
-    pub fn changing(&self) -> Option<Self> {
-        let grips = self.grips.changing(&self.workspace)?;
-        let kept = (self.field.clone(), self.spread.clone());
-        Some(Self::from_start(self.workspace, &self.situation, self.settings, kept, grips))
-    }
-
-    /// Returns a new search for plans that first clear the swept region `corridor` of another plan,
-    /// with that plan's tool and grip yaw (radians).
-    pub fn clearing(&self, corridor: SweptRegion, grip: (usize, f64)) -> Self {
-        let field = self.field.clone().clearing(corridor);
-        let kept = (field, self.spread.clone());
-        let grips = Grips { all: vec![grip], changes: None };
-        Self::from_start(self.workspace, &self.situation, self.settings, kept, grips)
-    }
-
-    /// Sets the position uncertainty for the first push, metres, if earlier pushes lead to the
-    /// start.
-    pub(super) fn with_first_room(mut self, room: f64) -> Self {
-        self.nodes.iter_mut().for_each(|node| node.room = room);
-        self
-    }
-
     fn from_start(
         workspace: Workspace<'a>,
         situation: &Situation,
@@ -145,6 +126,11 @@ impl<'a> Search<'a> {
             statistics: SearchStatistics::default(),
             scores: Scores::default(),
         }
+    }
+
+    /// Returns the limits for pushes.
+    pub fn workspace(&self) -> Workspace<'a> {
+        self.workspace
     }
 
     /// Returns the budgets of the search.
@@ -198,10 +184,14 @@ impl<'a> Search<'a> {
             &self.field,
             &self.nodes,
             (&self.grips, &self.reached),
-            self.settings.offsets,
+            Resolution { coarse: self.settings.offsets, fine: self.settings.fine_offsets },
             &mut self.statistics,
             &mut self.scores,
         );
+        // The search with coarse offsets alone has been made before.
+        if self.settings.fine_offsets && self.depth == 0 && !list.iter().any(|one| one.fine) {
+            list.clear();
+        }
         self.statistics.beyond_budget += keep_promising(&mut list, self.settings.rollouts);
         let mut found = Vec::with_capacity(list.len());
         let mut offers = Vec::new();

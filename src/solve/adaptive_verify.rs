@@ -4,6 +4,7 @@
 use rayon::prelude::*;
 
 use crate::outcome::Verdict;
+use crate::plan::is_behind;
 use crate::task::Task;
 use crate::verify::{Verifier, VerifySettings};
 
@@ -41,7 +42,7 @@ impl<'a> Verification<'a> {
     /// until one is safe. Stores the best attempt.
     pub fn verify(&mut self, attempts: &mut Attempts, indices: &[usize]) {
         if let Some(promising) = &mut self.promising {
-            *promising = true;
+            *promising |= indices.iter().any(|&k| !is_behind(attempts.list[k].score));
             return;
         }
         let Query { task, situation, progress, .. } = self.query;

@@ -1,8 +1,9 @@
 //! Attempts: plans from refined candidates or simulated lever-ups, and the plan without steps.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
-use crate::outcome::{Outcome, Trajectory, Verdict};
+use crate::outcome::{Outcome, Trajectory, Verdict, Warning};
 use crate::plan::{Candidate, Cost, Refined, SearchResult, bare, behind, is_behind};
 use crate::scene::{ArmFault, Tool};
 use crate::task::{Goal, Plan};
@@ -12,6 +13,12 @@ use super::grade::{Class, Grade};
 use super::pattern::PushPattern;
 use super::query::Query;
 use super::rank::distinct;
+
+/// Number of plans that need too much force after which no further plan is tried.
+const HEAVY: usize = 8;
+
+/// Factor by which the force of a plan exceeds the limit clearly: another plan may need less.
+const CLEARLY: f64 = 1.2;
 
 /// Plan, verified if that was worthwhile.
 pub(super) struct Attempt {
@@ -150,9 +157,24 @@ impl Attempts {
         self.list.len() - 1
     }
 
-    /// Returns `true` if any attempt was verified.
-    pub fn any_verified(&self) -> bool {
-        self.list.iter().any(|attempt| attempt.verdict.is_some())
+    /// Returns `true` if any attempt was verified that was predicted to work. A plan whose motion
+    /// is blocked in the prediction was only tried in case the prediction is wrong.
+    pub fn any_refuted(&self) -> bool {
+        self.list.iter().any(|attempt| attempt.verdict.is_some() && !is_behind(attempt.score))
+    }
+
+    /// Returns `true` if all of several verified plans need clearly more force than the robot has,
+    /// so that further plans are not worth their replays.
+    pub fn all_too_heavy(&self) -> bool {
+        let is_heavy = |warning: &Warning| match warning {
+            Warning::TooMuchForce { object: None, needed, limit } => *needed > CLEARLY * limit,
+            _ => false,
+        };
+        let verdicts = || self.list.iter().filter_map(|attempt| attempt.verdict.as_ref());
+        let heavy = |verdict: &Verdict| {
+            verdict.evidence.iter().any(|evidence| evidence.warnings.iter().any(is_heavy))
+        };
+        verdicts().count() >= HEAVY && verdicts().all(heavy)
     }
 
     /// Returns the class of the best attempt, [`Class::Fails`] if there is none.
@@ -166,14 +188,22 @@ impl Attempts {
     }
 
     /// Returns the best of the attempts that were replayed with perturbations. Ties go to the
-    /// first.
+    /// first. A plan with more pushes must be clearly better.
     pub fn graded_best(&self) -> Option<(Grade, usize)> {
         let graded = self.list.iter().enumerate().filter_map(|(k, attempt)| {
             let replayed = attempt.verdict.as_ref().filter(|_| attempt.replays != Replays::None);
             Some((Grade::of(replayed?), k))
         });
+        let pushes = |k: usize| self.list[k].plan.steps.len();
         let better = |best: (Grade, usize), next: (Grade, usize)| {
-            if next.0.compare(&best.0).is_gt() { next } else { best }
+            let order = next.0.compare(&best.0);
+            let same = next.0.is_as_good_as(&best.0);
+            let is_better = match pushes(next.1).cmp(&pushes(best.1)) {
+                Ordering::Greater => order.is_gt() && !same,
+                Ordering::Less => order.is_gt() || same,
+                Ordering::Equal => order.is_gt(),
+            };
+            if is_better { next } else { best }
         };
         graded.reduce(better)
     }

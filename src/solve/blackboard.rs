@@ -75,6 +75,9 @@ impl<'a> Blackboard<'a> {
     /// Returns `true` if plans of more than `depth` pushes are wanted. Longer plans are no better
     /// than a passing one, but one more push is better than an end near the edge of the tolerance.
     pub fn wants_longer(&self, depth: usize) -> bool {
+        if self.attempts.all_too_heavy() {
+            return false;
+        }
         let wanted = self.attempts.best.is_none_or(|(grade, k)| match grade.class {
             Class::Fails | Class::Fragile => true,
             Class::Forced | Class::Edge => depth <= self.attempts.list[k].plan.steps.len(),
@@ -100,7 +103,7 @@ impl<'a> Blackboard<'a> {
     /// Returns the status that follows from the attempts so far.
     pub fn status(&self) -> PlanStatus {
         match self.attempts.best_class() {
-            Class::Fails if self.attempts.any_verified() => PlanStatus::FailedVerification,
+            Class::Fails if self.attempts.any_refuted() => PlanStatus::FailedVerification,
             Class::Fails => PlanStatus::NoPlan,
             class => class.status(),
         }

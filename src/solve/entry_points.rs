@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::asset::ToolLibrary;
 use crate::outcome::Warning;
-use crate::plan::alone;
+use crate::plan::{Search, alone};
 use crate::progress::{Instant, NoProgress, Progress, Until};
 use crate::scene::{Situation, Tool};
 use crate::task::Task;
@@ -17,12 +17,11 @@ use super::check::check;
 use super::choice::solve_one_of;
 use super::error::SolveError;
 use super::grade::Class;
-use super::infeasibility::Cause;
+use super::infeasibility::{self, Cause, Hints, beyond};
 use super::lever_check::check_levers;
 use super::partial_goals::meet_some_goals;
 use super::planner::{Planner, stated};
 use super::query::Query;
-use super::relaxation;
 use super::report;
 use super::solution::{PlanStatus, Solution};
 use super::solving::run;
@@ -65,10 +64,16 @@ impl Planner {
         let until = Until::new(progress, self.time_limit);
         let mut solution = self.solve_from(&stated(task), task, library, &until)?;
         meet_some_goals(self, task, library, &until, &mut solution)?;
-        if solution.status == PlanStatus::NoPlan && !task.in_space() && solution.cause.is_none() {
+        let failed = solution.status == PlanStatus::FailedVerification;
+        let searched = failed || solution.status == PlanStatus::NoPlan;
+        if searched && !task.in_space() && solution.cause.is_none() {
             let nearest = task.choices(&task.scene.start()).into_iter().next();
             let asked = nearest.as_ref().unwrap_or(task);
-            solution.cause = relaxation::cause(self, asked, library, &until);
+            let verdicts = solution.plans.iter().filter_map(|plan| plan.verdict.as_ref());
+            let hints = Hints::of(&solution.statistics.search, verdicts);
+            let cause = infeasibility::cause(self, asked, library, &hints, &until);
+            // A failed replay states more than an unknown cause.
+            solution.cause = cause.filter(|cause| !(failed && *cause == Cause::Several));
         }
         if task.unknown.any() {
             solution.warnings.push(Warning::Guessed { unknown: task.unknown });
@@ -142,7 +147,11 @@ impl Planner {
         run(&mut board, &mut for_pushes(unobstructed.as_ref()))?;
         match board.verification.promising {
             Some(true) => Ok(None),
-            _ => Ok(relaxation::cause(self, task, library, progress)),
+            _ => {
+                let found = board.search.as_ref().map(Search::statistics);
+                let hints = Hints::of(found.unwrap_or(&Default::default()), std::iter::empty());
+                Ok(infeasibility::cause(self, task, library, &hints, progress))
+            }
         }
     }
 
@@ -180,6 +189,9 @@ fn solve_pushes(query: Query) -> Result<Solution, SolveError> {
     let unobstructed = unobstructed(&query);
     let mut board = Blackboard::for_pushes(query, query.search());
     board.try_idle();
+    if beyond(query.task, query.situation, query.tools).is_some() {
+        return Ok(report::solution(board, began));
+    }
     run(&mut board, &mut for_pushes(unobstructed.as_ref()))?;
     let settling = Instant::now();
     board.verification.settle(&mut board.attempts, Class::Fragile);

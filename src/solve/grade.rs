@@ -20,6 +20,9 @@ pub const WELL_INSIDE: f64 = 0.5;
 /// a higher one.
 const STEADY: f64 = 0.9;
 
+/// Difference of two errors that no engine resolves, in units of the tolerance.
+const RESOLUTION: f64 = 0.05;
+
 /// Class of a verdict, worst first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Class {
@@ -106,6 +109,14 @@ impl Grade {
             Ordering::Equal => self.score < other.score - NEAR,
             order => order.is_gt(),
         }
+    }
+
+    /// Returns `true` if two passing plans differ by less than the resolution of the tolerance, so
+    /// that neither is worth another push.
+    pub fn is_as_good_as(&self, other: &Self) -> bool {
+        let passes = |one: &Self| one.class >= Class::Edge && one.score.is_finite();
+        let close = (self.score - other.score).abs() <= RESOLUTION;
+        passes(self) && passes(other) && self.robustness == other.robustness && close
     }
 
     /// Compares two grades; the better one is greater.

@@ -31,7 +31,6 @@ mod query;
 mod rank;
 mod refinement;
 mod refiner;
-mod relaxation;
 mod report;
 mod retry;
 mod settings;

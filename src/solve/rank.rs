@@ -28,9 +28,13 @@ pub fn distinct(found: &[SearchResult], count: usize, most_behind: usize) -> Vec
 /// accuracy only holds on average.
 const HAIR: f64 = 0.1;
 
+/// Error assumed for a model outside the ranges in which it was measured, metres. Plans that are
+/// predicted to miss by more have not been seen to work.
+const UNKNOWN_ERROR: f64 = 0.05;
+
 /// Returns `true` if the predicted error is at most the tolerance plus the effect model's error
 /// `error_p95` (metres), which is at least [`HAIR`]. For headings, the model's error applies at the
-/// object's mean radius. If it is unknown, every feasible plan is worth verifying.
+/// object's mean radius. If it is unknown or larger, [`UNKNOWN_ERROR`] is assumed.
 pub(super) fn is_worth_verifying(
     task: &Task,
     evaluation: &Evaluation,
@@ -39,9 +43,11 @@ pub(super) fn is_worth_verifying(
     if !evaluation.score.is_finite() {
         return false;
     }
-    let Some(error_p95) = error_p95 else { return true };
+    let error_p95 = error_p95.unwrap_or(UNKNOWN_ERROR).min(UNKNOWN_ERROR);
     let near = |goal: &Goal| {
-        let error_p95 = error_p95.max(HAIR * goal.tolerance());
+        // A goal without a place has no finite tolerance.
+        let hair = Some(HAIR * goal.tolerance()).filter(|hair| hair.is_finite());
+        let error_p95 = error_p95.max(hair.unwrap_or(0.0));
         let radius = task.scene.objects[goal.object].shape.footprint().mean_radius();
         let end = End::resting(goal.object, &evaluation.outcome);
         goal.demands.iter().map(Demand::kind).all(|kind| {

@@ -122,6 +122,7 @@ impl Settings {
     pub fn search(&self, model_error: f64) -> SearchSettings {
         SearchSettings {
             offsets: self.offsets,
+            fine_offsets: false,
             beam: self.beam,
             rollouts: self.search_rollouts,
             // Variants of one kind have close ranks; this number suffices to get past them.

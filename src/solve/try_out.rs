@@ -70,7 +70,9 @@ fn refine_and_verify(board: &mut Blackboard, candidates: &Candidates) {
         let forced = may_be_longer
             && board.attempts.best_class() == Class::Forced
             && batch + 1 >= FORCED_BATCHES;
-        if board.verification.promising.is_some() || safe || enough || behind || forced {
+        let heavy = board.attempts.all_too_heavy();
+        let done = safe || enough || behind || forced || heavy;
+        if board.verification.promising.is_some() || done {
             break;
         }
         failed = indices;

@@ -81,6 +81,7 @@ mod tool_graph;
 mod transport;
 mod verification;
 mod whole_motion;
+mod why_not;
 
 /// Repository root, and the program under test.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");

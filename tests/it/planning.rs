@@ -17,8 +17,14 @@ use pushplan::{
     task::{Goal, PushForm, Task},
 };
 
-const SETTINGS: SearchSettings =
-    SearchSettings { offsets: 5, beam: 16, rollouts: 600, kept: 32, model_error: 0.0 };
+const SETTINGS: SearchSettings = SearchSettings {
+    offsets: 5,
+    fine_offsets: false,
+    beam: 16,
+    rollouts: 600,
+    kept: 32,
+    model_error: 0.0,
+};
 
 fn part(name: &str, size: [f64; 3], x: f64, y: f64, heading: f64) -> Part {
     Part::cuboid(name, size, Pose::new(x, y, heading))
@@ -246,7 +252,14 @@ fn a_search_finds_the_same_for_any_number_of_threads_and_within_its_budget() {
     let mut task = task(can(0.5, 0.05), [0.45, 0.2]);
     task.pushes.max_count = 2;
     task.scene.obstacles = vec![wall(0.52, 0.16, [0.08, 0.02, 0.1])];
-    let settings = SearchSettings { offsets: 3, beam: 6, rollouts: 40, kept: 10, model_error: 0.0 };
+    let settings = SearchSettings {
+        offsets: 3,
+        fine_offsets: false,
+        beam: 6,
+        rollouts: 40,
+        kept: 10,
+        model_error: 0.0,
+    };
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use clap::Args;
 
+use pushplan::outcome::warning_lines;
 use pushplan::scene::Tool;
 use pushplan::solve::{Effort, Planner};
 use pushplan_design::DesignSettings;
@@ -97,9 +98,7 @@ pub fn run(args: &DesignArgs, session: &Session) -> Result<u8, CliError> {
         .compute(|| pushplan_design::design(&planner, &task, &library, &settings, &following));
     following.finish()?;
     let design = designed.map_err(solve_error)?;
-    for warning in &design.best().warnings {
-        session.warn(&warning.to_string());
-    }
+    session.warn_each(&warning_lines(&design.best().warnings));
     let (code, suffix) = ending(design.status());
     let mut document = design_document(&task, &design);
     let written = match design.proposal.as_ref().and_then(|one| Some((one, one.solution.best()?))) {

@@ -11,7 +11,7 @@ use pushplan::effect::EffectModel;
 use pushplan::geometry::Pose;
 use pushplan::sim::LeverSimulator;
 use pushplan::{
-    outcome::{Frame, Record, Trajectory, Warning},
+    outcome::{Frame, Record, Trajectory, Warning, warning_lines},
     scene::{Engine, ModelKind, ModelSpec, Object, TableFit, Tool},
     task::{Job, Plan, Task},
 };
@@ -198,9 +198,8 @@ fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, Cl
     }
     for effect in &effects {
         let by = &effect.trajectory.by;
-        for warning in &effect.warnings {
-            session.warn(&format!("{by}: {warning}"));
-        }
+        let lines = warning_lines(&effect.warnings).into_iter();
+        session.warn_each(&lines.map(|line| format!("{by}: {line}")).collect::<Vec<_>>());
         if effect.warnings.contains(&Warning::Refused) {
             return Err(CliError::Refused(format!("{by} declines to predict this action")));
         }

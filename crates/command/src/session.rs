@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use pushplan::asset::printable;
+use pushplan::outcome::SHOWN_WARNINGS;
 
 use super::error::CliError;
 
@@ -23,6 +24,9 @@ pub struct GlobalArgs {
     /// Suppress progress and warnings on stderr
     #[arg(long, short, global = true)]
     pub quiet: bool,
+    /// Show all warnings instead of the three most useful ones
+    #[arg(long, global = true)]
+    pub all_warnings: bool,
     /// Folder in or below which the files named by MJCF and URDF files must be [default: the folder
     /// of the file]
     #[arg(long, global = true, value_name = "FOLDER")]
@@ -42,6 +46,7 @@ const SHOW_AFTER: Duration = Duration::from_millis(50);
 pub struct Session {
     pool: ThreadPool,
     quiet: bool,
+    all_warnings: bool,
     root: Option<PathBuf>,
 }
 
@@ -67,7 +72,8 @@ impl Session {
         if let Some(root) = &args.root {
             pushplan_arm::allow_files_in(root);
         }
-        Ok(Self { pool, quiet: args.quiet, root: args.root.clone() })
+        let GlobalArgs { quiet, all_warnings, .. } = *args;
+        Ok(Self { pool, quiet, all_warnings, root: args.root.clone() })
     }
 
     /// Returns the folder that must contain all files named by a file, if the user gives one.
@@ -110,6 +116,15 @@ impl Session {
     /// Writes a warning to stderr.
     pub fn warn(&self, text: &str) {
         self.message(&format!("warning: {text}"));
+    }
+
+    /// Writes warnings to stderr, most useful first; at most three unless the user asks for all.
+    pub fn warn_each(&self, lines: &[String]) {
+        let shown = if self.all_warnings { lines.len() } else { SHOWN_WARNINGS };
+        lines.iter().take(shown).for_each(|line| self.warn(line));
+        if let Some(more) = lines.len().checked_sub(shown).filter(|more| *more > 0) {
+            self.message(&format!("{more} more warnings; --all-warnings shows them"));
+        }
     }
 
     /// Writes a line to stderr, separate from the results.

@@ -6,6 +6,7 @@ use std::time::Duration;
 use clap::Args;
 
 use pushplan::asset::PlanFile;
+use pushplan::outcome::warning_lines;
 use pushplan::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
 use pushplan::{
     scene::{Models, Situation},
@@ -103,9 +104,7 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let solved = session.compute(|| planner.solve_with(&task, &library, &following));
     following.finish()?;
     let solution = solved.map_err(solve_error)?;
-    for warning in &solution.warnings {
-        session.warn(&warning.to_string());
-    }
+    session.warn_each(&warning_lines(&solution.warnings));
     let (code, suffix) = ending(solution.status);
     let written = match solution.best() {
         Some(best) => {

@@ -93,7 +93,10 @@ pub fn design(
         let proposal = proposal?;
         design.spent.solved += 1;
         let worth = grade(&proposal.solution);
-        if best.as_ref().is_none_or(|(best, _)| is_better(&worth, best)) {
+        let better = |best: &(Option<Grade>, Proposal)| {
+            is_better((&worth, pushes(&proposal)), (&best.0, pushes(&best.1)))
+        };
+        if best.as_ref().is_none_or(better) {
             best = Some((worth, proposal));
         }
         if worth.is_some_and(|grade| grade.class == Class::Safe) || progress.cancelled() {
@@ -136,8 +139,15 @@ fn grade(solution: &Solution) -> Option<Grade> {
     Some(Grade::of(verdict))
 }
 
-fn is_better(one: &Option<Grade>, other: &Option<Grade>) -> bool {
-    match (one, other) {
+/// Returns the number of pushes of a proposal's best plan.
+fn pushes(proposal: &Proposal) -> usize {
+    proposal.solution.best().map_or(0, |best| best.plan.steps.len())
+}
+
+/// Compares the grades of two tools, each with the number of pushes of its plan.
+fn is_better(one: (&Option<Grade>, usize), other: (&Option<Grade>, usize)) -> bool {
+    match (one.0, other.0) {
+        (Some(a), Some(b)) if a.is_as_good_as(b) && one.1 != other.1 => one.1 < other.1,
         (Some(one), Some(other)) => one.compare(other).is_gt(),
         (one, other) => one.is_some() && other.is_none(),
     }
@@ -146,7 +156,7 @@ fn is_better(one: &Option<Grade>, other: &Option<Grade>) -> bool {
 /// Returns `true` if a tool is worth proposing, where `bar` is the grade of the existing tools.
 fn has_more(one: &Option<Grade>, bar: &Option<Grade>) -> bool {
     match (one, bar) {
-        (Some(one), Some(bar)) => one.has_more_margin(bar),
+        (Some(one), Some(bar)) => one.has_more_margin(bar) && !one.is_as_good_as(bar),
         (_, bar) => bar.is_none(),
     }
 }

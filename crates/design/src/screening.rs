@@ -73,8 +73,6 @@ pub(super) struct Looking<'a> {
 impl Looking<'_> {
     /// Screens a tool.
     pub fn at(&self, tool: Tool) -> Look {
-        // Many tools are screened in parallel.
-        let progress = &Quiet(self.progress);
         let size = tool.parts().iter().map(|part| part.footprint().area()).sum();
         let (pieces, parts) = (tool.outline().len(), tool.parts().len());
         let tools = [Arc::new(tool)];
@@ -82,14 +80,41 @@ impl Looking<'_> {
         let mut rollouts = Rollouts::new(self.model, self.situation.clone());
         let laid = (self.field.clone(), self.spread.clone());
         let mut search = Search::laid(workspace, self.situation, SETTINGS.search(0.0), laid);
-        let (mut misses, mut pushes) = (f64::INFINITY, 0);
-        while search.can_deepen() && misses > 0.0 && !self.progress.cancelled() {
-            let found = search.deepen(&mut rollouts, progress);
+        let mut best = (f64::INFINITY, 0);
+        self.deepen(&mut search, usize::MAX, &mut rollouts, &mut best);
+        // A window may lie between the offsets of a single push.
+        if best.0 > 1.0
+            && let Some(mut search) = search.with_fine_offsets()
+        {
+            self.deepen(&mut search, 1, &mut rollouts, &mut best);
+        }
+        let (misses, pushes) = best;
+        Look { misses, pushes, pieces, parts, size, rollouts: rollouts.used() }
+    }
+
+    /// Searches for plans of up to `most` pushes until one ends well within the tolerance. `best`
+    /// holds the smallest error so far and the number of pushes of its plan.
+    fn deepen(
+        &self,
+        search: &mut Search,
+        most: usize,
+        rollouts: &mut Rollouts,
+        best: &mut (f64, usize),
+    ) {
+        let workspace = search.workspace();
+        // Many tools are screened in parallel.
+        let progress = &Quiet(self.progress);
+        while search.can_deepen()
+            && search.depth() < most
+            && best.0 > 0.0
+            && !self.progress.cancelled()
+        {
+            let found = search.deepen(rollouts, progress);
             let candidates = distinct(&found, SETTINGS.refined, 0);
             let refinable = found.first().is_some_and(|one| one.score <= REFINABLE);
             let refined = refine(
                 &workspace,
-                &mut rollouts,
+                rollouts,
                 &candidates,
                 RefineSettings {
                     rounds: if refinable { SETTINGS.refine_rounds } else { 0 },
@@ -104,13 +129,12 @@ impl Looking<'_> {
                 progress,
             );
             for one in refined.iter().filter(|one| one.best.is_sound()) {
-                let missed = self.missed(&workspace, &mut rollouts, one);
-                if missed < misses {
-                    (misses, pushes) = (missed, search.depth());
+                let missed = self.missed(&workspace, rollouts, one);
+                if missed < best.0 {
+                    *best = (missed, search.depth());
                 }
             }
         }
-        Look { misses, pushes, pieces, parts, size, rollouts: rollouts.used() }
     }
 
     /// Returns the error of a plan in the worst of the evaluated cases.

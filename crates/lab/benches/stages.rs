@@ -173,7 +173,14 @@ fn planning(criterion: &mut Criterion) {
     let task: Task = random_task(&library, SEED, 0);
     let tools = task.tools(&library).expect("its tools are shipped");
     let workspace = Workspace { task: &task, tools: &tools };
-    let settings = SearchSettings { offsets: 5, beam: 1, rollouts: 500, kept: 8, model_error: 0.0 };
+    let settings = SearchSettings {
+        offsets: 5,
+        fine_offsets: false,
+        beam: 1,
+        rollouts: 500,
+        kept: 8,
+        model_error: 0.0,
+    };
     let search = || {
         let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
         Search::new(workspace, rollouts.situation(), settings).deepen(&mut rollouts, &NoProgress)

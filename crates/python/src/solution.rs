@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pushplan::solve::PlanStatus;
 use pushplan::{RankedPlan, Solution, TableFit, Task};
-use pushplan::{outcome::Warning, scene::Situation};
+use pushplan::{outcome::warning_lines, scene::Situation};
 use pushplan_report::{Origin, PageView, TaskSource, solution_document, solution_page};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -70,10 +70,17 @@ impl PySolution {
         PyTask { task: Arc::clone(&self.task), source: Some(self.source.clone()) }
     }
 
-    /// Warnings about the predictions of the first plan.
+    /// Warnings about the predictions of the first plan, most useful first.
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.solution.warnings.iter().map(Warning::to_string).collect()
+        warning_lines(&self.solution.warnings)
+    }
+
+    /// Cause of a missing or failed plan and its remedy; `None` if there is a plan or no cause was
+    /// found.
+    #[getter]
+    fn cause(&self) -> Option<String> {
+        self.solution.cause.as_ref().map(ToString::to_string)
     }
 
     /// Returns the solution with the keys of `pushplan solve --json`; times are wall-clock

@@ -75,7 +75,7 @@ pub(super) fn headline(task: &Task, solution: &Solution) -> String {
         }
         PlanStatus::NoPlan => format!("no plan{}; the closest is {plan}", cause(solution)),
         PlanStatus::FailedVerification => {
-            format!("failed verification; the best predicted plan is {plan}")
+            format!("failed verification{}; the best predicted plan is {plan}", cause(solution))
         }
     };
     match solution.stopped {

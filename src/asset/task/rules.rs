@@ -17,7 +17,7 @@ use super::bodies::{SLACK, body, passes};
 use super::spec::REACH_KEY;
 use super::tools::{check_free, check_tools};
 use super::{
-    build, frictions, goal_rules, goals, joints, keep as regions, levers, obstacles as fixed,
+    build, frictions, goal_rules, goals, joints, keep as regions, levers, obstacles as fixed, part,
     parts, plates, refused,
 };
 
@@ -347,7 +347,8 @@ fn push_rules(pushes: &Node, objects: &[Node], ledger: &mut Ledger) {
     }
     let heights: Option<Vec<f64>> = objects
         .iter()
-        .map(|object| shape(object.get("shape")?).map(|shape| shape.height()))
+        .flat_map(|object| std::iter::once(object).chain(part::parts(object)))
+        .map(|solid| Some(part::rise(solid, 0.0)? + shape(solid.get("shape")?)?.height()))
         .collect();
     let highest = heights.and_then(|heights| heights.into_iter().reduce(f64::max));
     let lift = number_or(pushes, "lift", PushRules::LIFT);

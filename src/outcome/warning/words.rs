@@ -201,6 +201,28 @@ impl fmt::Display for Warning {
     }
 }
 
+/// Returns one text for warnings about the same quantity of several bodies.
+pub(super) fn out_of_range<'a>(warnings: impl Iterator<Item = &'a Warning> + Clone) -> String {
+    let mut values = warnings.clone().filter_map(|warning| match warning {
+        Warning::OutsideRange { of, value, low, high, .. } => {
+            Some(format!("of {of} = {}", distinguished(*value, [*low, *high])))
+        }
+        _ => None,
+    });
+    match (warnings.clone().next(), values.next(), values.collect::<Vec<String>>()) {
+        (Some(Warning::OutsideRange { quantity, low, high, .. }), Some(first), others)
+            if !others.is_empty() =>
+        {
+            let others = others.join(" and ");
+            format!(
+                "{quantity} {first} and {others} is outside the model's range {low} to {high}, so \
+                 predictions may be wrong; `--out-of-range simulate` simulates instead"
+            )
+        }
+        (first, ..) => first.map(ToString::to_string).unwrap_or_default(),
+    }
+}
+
 /// Formats `value` with four decimals, or with as many as distinguish it from these bounds.
 fn distinguished(value: f64, bounds: [f64; 2]) -> String {
     let same = |text: &str| text.parse().is_ok_and(|shown: f64| bounds.contains(&shown));

@@ -20,7 +20,7 @@ impl<'a> Strategy<'a> for ChangeTool<'a> {
     fn next(&mut self, board: &mut Blackboard<'a>) -> Result<Option<Batch>, SolveError> {
         if !self.begun {
             self.begun = true;
-            let usual = board.search.as_ref().filter(|_| !board.attempts.any_verified());
+            let usual = board.search.as_ref().filter(|_| !board.attempts.any_refuted());
             self.search = usual.and_then(Search::changing);
         }
         let Some(search) = &mut self.search else { return Ok(None) };

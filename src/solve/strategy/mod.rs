@@ -5,6 +5,7 @@
 
 mod change_tool;
 mod clear;
+mod fine_offsets;
 mod harden;
 mod lever;
 mod order;

@@ -8,6 +8,7 @@ use crate::task::Task;
 
 use super::change_tool::ChangeTool;
 use super::clear::Clear;
+use super::fine_offsets::FineOffsets;
 use super::harden::Harden;
 use super::lever::{FollowUp, InTurn, LeverUp, MakeRoom};
 use super::push::Push;
@@ -21,7 +22,8 @@ type Strategies<'a> = Vec<Box<dyn Strategy<'a> + 'a>>;
 ///
 /// Plans that work nearly always are first searched among the existing results, then with an
 /// obstruction cleared, then after legs of transport. Only then may plans be a push longer. Tool
-/// changes come last, if no plan with one grip is even predicted to reach the goal.
+/// changes follow, if no plan with one grip is even predicted to reach the goal, and fine lateral
+/// offsets come last, if no plan works.
 pub(in crate::solve) fn for_pushes<'a>(alone: Option<&'a (Task, Situation)>) -> Strategies<'a> {
     vec![
         Box::new(Harden),
@@ -29,6 +31,7 @@ pub(in crate::solve) fn for_pushes<'a>(alone: Option<&'a (Task, Situation)>) -> 
         Box::new(Transport::default()),
         Box::new(Push),
         Box::new(ChangeTool::default()),
+        Box::new(FineOffsets::default()),
     ]
 }
 

@@ -163,9 +163,7 @@ fn verified(args: &VerifyArgs, session: &Session, file: &PlanFile) -> Result<Ver
     let verdict =
         session.compute(|| verifier.verify(&file.task, &situation, &file.tools, &file.plan));
     following.finish()?;
-    for warning in replay_warnings(&verdict) {
-        session.warn(&warning);
-    }
+    session.warn_each(&replay_warnings(&verdict));
     Ok(verdict)
 }
 

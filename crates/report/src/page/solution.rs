@@ -8,7 +8,7 @@ use crate::verdict::verdict_line;
 use pushplan::plan::{ScoredPush, bare, is_behind};
 use pushplan::solve::{PlanStatus, RankedPlan, Solution};
 use pushplan::{
-    outcome::{Outcome, Verdict},
+    outcome::{Outcome, Verdict, warning_lines},
     scene::Engine,
     task::Task,
 };
@@ -61,7 +61,7 @@ pub fn solution_page(
         making.data.choice = choice(solution);
     }
     making.data.candidates = candidates(solution);
-    making.data.warnings = solution.warnings.iter().map(ToString::to_string).collect();
+    making.data.warnings = warning_lines(&solution.warnings);
     html::page(&making.data, view)
 }
 
