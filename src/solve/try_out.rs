@@ -13,10 +13,6 @@ use super::retry::retry;
 /// plans work and none is safe, the task is fragile and these replays are most of its cost.
 const PERTURBED_SHARE: f64 = 0.375;
 
-/// Number of batches after which a longer plan is tried if the best plan presses too hard. Of ten
-/// plans that squeeze an object, seven were replaced by plans with one more push.
-const FORCED_BATCHES: usize = 4;
-
 /// Refines and verifies candidates until one is safe, then replays the best until its verdict is
 /// clear.
 pub(super) fn try_out(board: &mut Blackboard, candidates: Candidates) {
@@ -43,8 +39,6 @@ fn refine_and_verify(board: &mut Blackboard, candidates: &Candidates) {
     board.timing.refinement += began.elapsed().as_secs_f64();
     board.reporter.refined(queue.first().map(|&k| &board.attempts.list[k]));
 
-    let may_be_longer =
-        *pushes < query.task.pushes.max_count && board.attempts.best_class() < Class::Forced;
     let mut failed = Vec::new();
     for batch in 0..most.div_ceil(at_once) {
         if batch > 0 {
@@ -67,12 +61,8 @@ fn refine_and_verify(board: &mut Blackboard, candidates: &Candidates) {
         let enough = board.verification.perturbed - before >= most_perturbed;
         // If even the most promising plan is blocked, a few attempts suffice.
         let behind = is_behind(board.attempts.list[leader].score);
-        let forced = may_be_longer
-            && board.attempts.best_class() == Class::Forced
-            && batch + 1 >= FORCED_BATCHES;
         let heavy = board.attempts.all_too_heavy();
-        let done = safe || enough || behind || forced || heavy;
-        if board.verification.promising.is_some() || done {
+        if board.verification.promising.is_some() || safe || enough || behind || heavy {
             break;
         }
         failed = indices;
