@@ -12,104 +12,11 @@ masses in kilograms. Only Python is needed. The exit code is 0 if no task is sol
 
 import argparse
 import math
-import random
 import subprocess
 import sys
 from pathlib import Path
 
-
-def num(value):
-    return f"{value:.5f}".rstrip("0").rstrip(".")
-
-
-def turned(x, y, turn):
-    c, s = math.cos(turn), math.sin(turn)
-    return c * x - s * y, s * x + c * y
-
-
-class Draw:
-    """A task while it is drawn; everything is rotated about the robot's base by `turn`."""
-
-    def __init__(self, seed):
-        self.rng = random.Random(seed)
-        self.turn = 0.0
-        self.objects, self.obstacles, self.joints, self.more = [], [], [], []
-        self.robot = "reach: {min: 0.25, max: 0.95}"
-        self.pushes = "length: 0.25, directions: 8, max_count: 2"
-        self.table, self.goals, self.tools = "friction: 0.5", [], "all"
-
-    def u(self, low, high):
-        return self.rng.uniform(low, high)
-
-    def place(self, x, y, yaw=0.0):
-        x, y = turned(x, y, self.turn)
-        return f"position: [{num(x)}, {num(y)}], yaw_deg: {num(math.degrees(self.turn) + yaw)}"
-
-    def thing(self, name, shape, x, y, yaw=0.0, mass=None):
-        mass = self.u(0.1, 1.0) if mass is None else mass
-        self.objects.append(
-            f"{{name: {name}, shape: {{{shape}}}, mass: {num(mass)}, friction: 0.4, "
-            f"{self.place(x, y, yaw)}}}"
-        )
-
-    def can(self, x, y, r, height=0.08, name="can", mass=None):
-        self.thing(name, f"cylinder: {{radius: {num(r)}, height: {num(height)}}}", x, y, 0.0, mass)
-
-    def box(self, x, y, a, b, height=0.08, name="can", mass=None, yaw=0.0):
-        self.thing(name, f"cuboid: {{size: [{num(a)}, {num(b)}, {num(height)}]}}", x, y, yaw, mass)
-
-    def wall(self, x, y, a, b, height=0.12, yaw=0.0):
-        name = f"wall-{len(self.obstacles)}"
-        self.obstacles.append(
-            f"{{name: {name}, size: [{num(a)}, {num(b)}, {num(height)}], {self.place(x, y, yaw)}}}"
-        )
-
-    def pen(self, x, y, inner_x, inner_y, thick, height=0.12):
-        """Adds four walls around a rectangle."""
-        for sign in (-1, 1):
-            self.wall(x + sign * (inner_x + thick) / 2, y, thick, inner_y + 2 * thick, height)
-            self.wall(x, y + sign * (inner_y + thick) / 2, inner_x, thick, height)
-
-    def gap(self, x, width, thick=0.02, height=0.12):
-        """Adds two walls that no push leads around."""
-        for sign in (-1, 1):
-            self.wall(x, sign * (width / 2 + 0.6), thick, 1.2, height)
-
-    def goal(self, x, y, tolerance=0.02, object="can", heading=None):
-        x, y = turned(x, y, self.turn)
-        more = (
-            ""
-            if heading is None
-            else f", heading_deg: {num(heading + math.degrees(self.turn))}"
-            ", heading_tolerance_deg: 8"
-        )
-        self.goals.append(
-            f"{{object: {object}, position: [{num(x)}, {num(y)}], tolerance: {tolerance}{more}}}"
-        )
-
-    def text(self):
-        listed = lambda items: "[" + ", ".join(items) + "]"
-        goals = self.goals[0] if len(self.goals) == 1 else listed(self.goals)
-        return "\n".join(
-            [
-                "scene:",
-                f"  table: {{{self.table}}}",
-                "  objects:",
-                *(f"    - {one}" for one in self.objects),
-                *(["  joints:", *(f"    - {one}" for one in self.joints)] if self.joints else []),
-                *(
-                    ["  obstacles:", *(f"    - {one}" for one in self.obstacles)]
-                    if self.obstacles
-                    else []
-                ),
-                f"robot: {{{self.robot}}}",
-                f"tools: {self.tools}",
-                f"pushes: {{{self.pushes}}}",
-                f"goal: {goals}",
-                *self.more,
-                "",
-            ]
-        )
+from drawn import Draw, num
 
 
 def gap_by_little(d, turn=0.0):
