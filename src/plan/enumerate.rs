@@ -223,7 +223,7 @@ fn extend(
     if let Some(reason) = workspace.margins(planned.grip(), pushed, &push, set_down).violation() {
         return Err(reason);
     }
-    if workspace.is_placed() && !reached.reach(planned.grip(), start) {
+    if workspace.is_placed() && !reached.reach(planned.grip(), start, depth == 0) {
         return Err(Infeasible::NoWay);
     }
     let promise = (0..=2)

@@ -7,14 +7,44 @@ use crate::scene::Robot;
 
 use super::space::Space;
 
-/// Spacing of the grid, metres: smaller than any gap through which a hand fits.
-const SPACING: f64 = 0.02;
+/// Distance from which a position is joined to the grid, metres.
+const NEAR: f64 = 0.08;
 
-/// Maximum number of cells along a side of the grid.
-const CELLS: usize = 160;
+/// Resolution of the grid.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Resolution {
+    /// Distance between cells, metres.
+    spacing: f64,
+    /// Maximum number of cells along a side.
+    cells: usize,
+    /// Clearance of a free cell, in cells. Neighbours are at most 1.5 cells apart, so half of that
+    /// at two free cells keeps the path between them free.
+    room: f64,
+}
 
-/// Distance in cells from which a position is joined to the grid.
-const NEAR: f64 = 4.0;
+impl Resolution {
+    /// Resolution of a test that refuses no reachable position: free cells only have to be free
+    /// themselves. A C-obstacle is at least as thick as a hand or a tool.
+    pub const ROUGH: Self = Self { spacing: 0.02, cells: 160, room: 0.0 };
+
+    /// Resolutions of paths, tried in order.
+    pub const PATHS: [Self; 2] = [
+        Self { spacing: 0.02, cells: 160, room: 0.75 },
+        Self { spacing: 0.01, cells: 320, room: 0.75 },
+    ];
+
+    fn grid(&self, reach: f64) -> Grid {
+        let spacing = self.spacing.max(2.0 * reach / (self.cells - 1) as f64);
+        let count = (2.0 * reach / spacing).ceil() as usize + 1;
+        Grid::new(Vector::repeat(-reach), spacing, [count, count])
+    }
+
+    /// Returns the free cells of a grid.
+    fn free(&self, space: &Space, grid: &Grid) -> Vec<bool> {
+        let room = self.room * grid.spacing;
+        (0..grid.count()).map(|cell| space.is_free(grid.position(cell), room)).collect()
+    }
+}
 
 /// Positions to which a lifted tool can travel.
 pub struct Places<'a> {
@@ -31,15 +61,16 @@ pub struct Places<'a> {
 impl<'a> Places<'a> {
     /// Computes the positions that a tool reaches from `home`. If it does not fit there, it is held
     /// with its yaw at the nearest position that fits and that the `hand` alone reaches.
-    pub(super) fn from_home(space: Space<'a>, hand: impl FnOnce() -> Space<'a>) -> Self {
-        let reach = space.robot.reach_max;
-        let spacing = SPACING.max(2.0 * reach / (CELLS - 1) as f64);
-        let count = (2.0 * reach / spacing).ceil() as usize + 1;
-        let grid = Grid::new(Vector::repeat(-reach), spacing, [count, count]);
-        let free = free(&space, &grid);
+    pub(super) fn from_home(
+        space: Space<'a>,
+        hand: impl FnOnce() -> Space<'a>,
+        resolution: Resolution,
+    ) -> Self {
+        let grid = resolution.grid(space.robot.reach_max);
+        let free = resolution.free(&space, &grid);
         let mut own = Self { home: home(space.robot), grid, free, before: Vec::new(), space };
         if !own.space.is_free(own.home, 0.0) {
-            own.home = own.fitting(hand()).unwrap_or(own.home);
+            own.home = own.fitting(hand(), resolution).unwrap_or(own.home);
         }
         own.before = own.flood(own.home);
         own
@@ -79,8 +110,8 @@ impl<'a> Places<'a> {
     }
 
     /// Returns the nearest cell to home in which the tool fits and which the hand reaches.
-    fn fitting(&self, hand: Space<'a>) -> Option<Vector> {
-        let free = free(&hand, &self.grid);
+    fn fitting(&self, hand: Space<'a>, resolution: Resolution) -> Option<Vector> {
+        let free = resolution.free(&hand, &self.grid);
         let alone =
             Self { home: self.home, grid: self.grid, free, before: Vec::new(), space: hand };
         let reached = alone.flood(self.home);
@@ -111,12 +142,11 @@ impl<'a> Places<'a> {
 
     /// Returns the free cells near a position to which a straight path is free.
     fn seen_from(&self, position: Vector) -> impl Iterator<Item = usize> {
-        let reach = NEAR * self.grid.spacing;
-        let corners = [position - Vector::repeat(reach), position + Vector::repeat(reach)];
+        let corners = [position - Vector::repeat(NEAR), position + Vector::repeat(NEAR)];
         self.grid.within(corners).filter(move |&cell| {
             let at = self.grid.position(cell);
             self.free[cell]
-                && (at - position).norm() < reach
+                && (at - position).norm() < NEAR
                 && self.space.met([position, at]).is_none()
         })
     }
@@ -163,13 +193,6 @@ pub(super) fn home(robot: &Robot) -> Vector {
         near if near > 0.0 => home * (least / near),
         _ => Vector::new(least, 0.0),
     }
-}
-
-/// Returns the free cells. Neighbours on a grid are at most 1.5 spacings apart, so a clearance of
-/// half of that at two free cells keeps the path between them free.
-fn free(space: &Space, grid: &Grid) -> Vec<bool> {
-    let room = 0.75 * grid.spacing;
-    (0..grid.count()).map(|cell| space.is_free(grid.position(cell), room)).collect()
 }
 
 const NEIGHBOURS: [[i32; 2]; 8] =

@@ -6,7 +6,7 @@ use crate::geometry::{Vector, Vector3};
 use crate::scene::{Plate, Scene, State, Tool};
 use crate::task::{Plan, PushForm, Step, Task, ToolMotion};
 
-use super::detour::{Places, home};
+use super::detour::{Places, Resolution, home};
 use super::space::{Space, is_open};
 
 /// Travel of a lifted tool at the travel height of its robot.
@@ -139,19 +139,20 @@ impl Task {
         }
     }
 
-    /// Returns the positions to which `tool`, held at `yaw` (radians), can travel from home; `None`
-    /// if nothing but the robot's own column is higher than the travel height.
+    /// Returns the positions to which `tool`, held at `yaw` (radians), can travel from home, as far
+    /// as a rough test tells; `None` if nothing but the robot's own column is higher than the
+    /// travel height. Without a `state` no object obstructs the tool.
     pub fn places<'a>(
         &'a self,
         scene: &'a Scene,
-        state: &State,
+        state: Option<&State>,
         (tool, yaw): (&Tool, f64),
     ) -> Option<Places<'a>> {
         if self.arm.is_some() || is_open(self, scene) {
             return None;
         }
         let space = || Space::new(self, (scene, state), tool, yaw);
-        Some(Places::from_home(space(), || space().of_hand()))
+        Some(Places::from_home(space(), || space().of_hand(), Resolution::ROUGH))
     }
 }
 
@@ -165,7 +166,7 @@ struct Travel<'a> {
 
 impl Travel<'_> {
     fn space(&self, tool: &Tool, yaw: f64) -> Space<'_> {
-        Space::new(self.task, (self.scene, self.state), tool, yaw)
+        Space::new(self.task, (self.scene, Some(self.state)), tool, yaw)
     }
 
     /// Appends the legs from the end of a step to the start of the next. A tool that changes, or
@@ -212,9 +213,15 @@ impl Travel<'_> {
         if space.met(straight).is_none() {
             return Ok(leg(straight.to_vec(), None));
         }
-        let places = Places::from_home(space, || self.space(tool, yaw).of_hand());
-        let found = places.path(at(places.home()));
-        let blocked = |what: &str| Blocked { from, to, obstacle: what.to_owned() };
-        found.map(|(path, around)| leg(path, around)).map_err(blocked)
+        let mut met = None;
+        for resolution in Resolution::PATHS {
+            let space = || self.space(tool, yaw);
+            let places = Places::from_home(space(), || space().of_hand(), resolution);
+            match places.path(at(places.home())) {
+                Ok((path, around)) => return Ok(leg(path, around)),
+                Err(what) => met = Some(what.to_owned()),
+            }
+        }
+        Err(Blocked { from, to, obstacle: met.unwrap_or_default() })
     }
 }

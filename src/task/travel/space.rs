@@ -3,7 +3,7 @@
 use crate::geometry::{
     Footprint, Pose, Vector, clearance, distance_to_origin, swept_clearance, wrap_angle,
 };
-use crate::scene::{Fixed, Mover, Object, Region, Robot, Scene, State, Tool};
+use crate::scene::{Fixed, Mover, Region, Robot, Scene, State, Tool};
 use crate::task::Task;
 
 /// Distance below which bodies touch, metres: rounding.
@@ -50,22 +50,31 @@ pub(super) fn is_open(task: &Task, scene: &Scene) -> bool {
 }
 
 impl<'a> Space<'a> {
-    /// Creates the space of a lifted tool held at `yaw` (radians), with the objects of a state.
-    pub fn new(task: &'a Task, (scene, state): (&'a Scene, &State), tool: &Tool, yaw: f64) -> Self {
+    /// Creates the space of a lifted tool held at `yaw` (radians), with the objects of a state, if
+    /// any.
+    pub fn new(
+        task: &'a Task,
+        (scene, state): (&'a Scene, Option<&State>),
+        tool: &Tool,
+        yaw: f64,
+    ) -> Self {
         let travel = task.robot.travel;
         let obstacles = scene.obstacles.iter().filter(|one| one.meets([travel, f64::INFINITY]));
         let obstacles = obstacles.map(|one| Tall { fixed: one.into(), tool: true, hand: true });
         let regions = scene.keep_out.iter().filter(|region| region.tool || region.hand);
         let region = |one: &'a Region| Tall { fixed: one.into(), tool: one.tool, hand: one.hand };
-        let objects = scene.objects.iter().zip(&state.poses).enumerate();
-        let objects =
-            objects.filter(|(k, (object, _))| object.top() > travel && !scene.has_left(*k, state));
-        let object = |(_, (object, pose)): (usize, (&'a Object, &Pose))| {
-            let footprint = object.shape.footprint();
-            let fixed = Fixed { name: &object.name, footprint, pose: *pose };
-            Tall { fixed, tool: true, hand: true }
-        };
-        let tall = obstacles.chain(regions.map(region)).chain(objects.map(object)).collect();
+        let objects = state.into_iter().flat_map(|state| {
+            let placed = scene.objects.iter().zip(&state.poses).enumerate();
+            let tall = placed.filter(move |(k, (object, _))| {
+                object.top() > travel && !scene.has_left(*k, state)
+            });
+            tall.map(|(_, (object, pose))| {
+                let footprint = object.shape.footprint();
+                let fixed = Fixed { name: &object.name, footprint, pose: *pose };
+                Tall { fixed, tool: true, hand: true }
+            })
+        });
+        let tall = obstacles.chain(regions.map(region)).chain(objects).collect();
         let seen = tool.grip.inverse();
         let blade = tool.blade().map(|blade| {
             let half = Vector::new(0.5 * blade.length, 0.5 * blade.width);
