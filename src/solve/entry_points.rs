@@ -17,7 +17,7 @@ use super::check::check;
 use super::choice::solve_one_of;
 use super::error::SolveError;
 use super::grade::Class;
-use super::infeasibility::{self, Cause, Hints, beyond};
+use super::infeasibility::{self, Cause, Hints, beyond, out_of_reach};
 use super::lever_check::check_levers;
 use super::partial_goals::meet_some_goals;
 use super::planner::{Planner, stated};
@@ -189,7 +189,9 @@ fn solve_pushes(query: Query) -> Result<Solution, SolveError> {
     let unobstructed = unobstructed(&query);
     let mut board = Blackboard::for_pushes(query, query.search());
     board.try_idle();
-    if beyond(query.task, query.situation, query.tools).is_some() {
+    let Query { task, situation, tools, .. } = query;
+    // For an untouchable object the search costs nothing, and states why each push is infeasible.
+    if beyond(task, situation, tools).is_some() && out_of_reach(task, situation, tools).is_none() {
         return Ok(report::solution(board, began));
     }
     run(&mut board, &mut for_pushes(unobstructed.as_ref()))?;

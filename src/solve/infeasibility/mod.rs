@@ -15,7 +15,7 @@ mod obstructed;
 mod relaxed;
 mod words;
 
-pub(super) use beyond::beyond;
+pub(super) use beyond::{beyond, out_of_reach};
 pub use cause::Cause;
 pub(super) use find::cause;
 pub(super) use hints::Hints;
