@@ -67,7 +67,7 @@ pub const SHOWN_HAND: f64 = 0.1;
 
 impl Robot {
     /// Name of the column on which the arm stands; no other body can have it.
-    pub const BASE: &str = "robot base";
+    pub const BASE: &str = Obstacle::ROBOT;
 
     /// Returns half the side of the default column of an arm, metres: 0.08 m, or less if the hand
     /// would touch it where the reach begins, `min` metres from the origin, but at least 0.04 m.

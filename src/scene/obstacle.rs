@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Pose3, Shape, Solid};
 
-use super::Robot;
 use super::serde_planar::{is_zero, planar_only};
 
 /// A fixed cuboid: a wall, a shelf, a standoff, the floor of a tray.
@@ -24,6 +23,9 @@ pub struct Obstacle {
 }
 
 impl Obstacle {
+    /// Beginning of the names of obstacles that are the robot's own body.
+    pub const ROBOT: &str = "robot base";
+
     /// Default friction value of an obstacle: plain wood.
     pub const FRICTION: f64 = 0.5;
 
@@ -46,7 +48,7 @@ impl Obstacle {
 
     /// Returns `true` if it is part of the robot's own body.
     pub fn is_robot(&self) -> bool {
-        self.name.starts_with(Robot::BASE)
+        self.name.starts_with(Self::ROBOT)
     }
 
     /// Returns the height of its top above the table, metres.

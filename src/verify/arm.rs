@@ -4,24 +4,10 @@
 use std::sync::Arc;
 
 use crate::{
-    outcome::{Evidence, Warning},
-    scene::{Engine, JointTrajectory, Situation, State, Tool},
+    outcome::{Evidence, Warning, step_states},
+    scene::{JointTrajectory, Situation, State, Tool},
     task::{Followed, Plan, Task},
 };
-
-/// Returns the states before the first step of a plan and after each step, from a replay in 3-D
-/// that begins in `start`.
-pub fn step_states(start: &State, plan: &Plan, evidence: &[Evidence]) -> Vec<State> {
-    let mut states = vec![start.clone()];
-    let nominal =
-        evidence.iter().find(|one| one.engine == Engine::Spatial && one.trajectory.is_some());
-    let frames = nominal.and_then(|one| one.trajectory.as_ref()).map_or(&[][..], |t| &t.frames);
-    for step in 0..plan.steps.len() {
-        let last = frames.iter().rfind(|frame| frame.stroke == step);
-        states.extend(last.map(|frame| frame.state.clone()));
-    }
-    states
-}
 
 /// Returns the joint trajectory of the task's arm for a plan with these replays; `None` without an
 /// arm.
@@ -33,7 +19,7 @@ pub fn joints(
     evidence: &[Evidence],
 ) -> Option<Followed> {
     let arm = task.arm.as_deref()?;
-    let states = step_states(&situation.start, plan, evidence);
+    let states = step_states(&situation.start, plan.steps.len(), evidence);
     Some(arm.follow(task, &situation.scene, tool, plan, &states))
 }
 
@@ -58,7 +44,7 @@ pub(super) fn arm_faults(
     };
     let faults = match made {
         Ok(path) => {
-            let states = step_states(&situation.start, plan, evidence);
+            let states = step_states(&situation.start, plan.steps.len(), evidence);
             arm.judge(&situation.scene, tool, plan, &states, &path)
         }
         Err(fault) => vec![fault],

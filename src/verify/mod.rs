@@ -16,6 +16,6 @@ mod table_edge;
 mod tightened;
 mod verifier;
 
-pub use arm::{joints, step_states};
+pub use arm::joints;
 pub use rules::rule_violations;
 pub use verifier::{Verifier, VerifySettings};

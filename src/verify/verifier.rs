@@ -9,12 +9,15 @@ use crate::geometry::Pose;
 use crate::progress::{NoProgress, Progress};
 use crate::sim::{LeverSimulator, Simulator};
 use crate::{
-    outcome::{Evidence, Outcome, Perturbation, Record, Trajectory, Verdict, Warning, never_on},
+    outcome::{
+        Evidence, Outcome, Perturbation, Record, Trajectory, Verdict, Warning, never_on,
+        step_states,
+    },
     scene::{Engine, JointTrajectory, Scene, Situation, Tool},
     task::{Job, Plan, Task},
 };
 
-use super::arm::{arm_faults, step_states};
+use super::arm::arm_faults;
 use super::conditions::Conditions;
 use super::force::force_warnings;
 use super::perturbation::{perturbed, wary};
@@ -138,7 +141,7 @@ impl<'a> Verifier<'a> {
         if in_space(task, plan) {
             let evidence = vec![self.replay_in_space(task, situation, (tools, plan), None)];
             forbidden.extend(hand_faults((task, scene), tools, plan, &evidence));
-            let states = step_states(&situation.start, plan, &evidence);
+            let states = step_states(&situation.start, plan.steps.len(), &evidence);
             forbidden.extend(travel_faults((task, scene), tools, plan, &states));
             forbidden.extend(arm_faults((task, situation), tools, plan, &evidence, self.joints));
             return Verdict::judge(forbidden, evidence, task.robustness);
@@ -152,7 +155,7 @@ impl<'a> Verifier<'a> {
         // The 2-D engine comes first, because people compare predictions with it.
         evidence.reverse();
         forbidden.extend(hand_faults((task, scene), tools, plan, &evidence));
-        let states = step_states(&situation.start, plan, &evidence);
+        let states = step_states(&situation.start, plan.steps.len(), &evidence);
         forbidden.extend(travel_faults((task, scene), tools, plan, &states));
         forbidden.extend(arm_faults((task, situation), tools, plan, &evidence, self.joints));
         Verdict::judge(forbidden, evidence, task.robustness)

@@ -1,10 +1,10 @@
 //! Motions from home to home: pens, fences, overhangs, keep-out strips, and the body of the robot.
 
 use pushplan::asset::ToolLibrary;
+use pushplan::outcome::step_states;
 use pushplan::scene::Robot;
 use pushplan::solve::{Effort, PlanStatus, Planner, Solution};
 use pushplan::task::Task;
-use pushplan::verify::step_states;
 
 /// Returns the answer for a task in the folder `at`.
 fn answer(text: &str) -> (Task, Solution) {
@@ -96,7 +96,7 @@ goal: {object: can, position: [0.7, 0], tolerance: 0.02}
     );
     let best = solution.best().expect("a plan");
     let evidence = best.verdict.as_ref().map_or(&[][..], |verdict| &verdict.evidence);
-    let states = step_states(&task.scene.start(), &best.plan, evidence);
+    let states = step_states(&task.scene.start(), best.plan.steps.len(), evidence);
     let legs = task.legs(&task.scene, &best.tools, &best.plan, &states).expect("ways");
     let tool = &best.tools[0];
     for leg in legs.iter().filter(|leg| leg.from.is_some()) {

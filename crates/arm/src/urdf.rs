@@ -129,7 +129,7 @@ impl<'a> File<'a> {
     }
 
     /// Collects the solids of a link, and of links that are fixed to it outside the chain. Other
-    /// joints outside the chain count as fixed if they are `resting`, such as those of a second arm.
+    /// joints outside the chain count as fixed if they are `resting`, as in a second arm.
     fn collect(
         &self,
         branches: &Branches<'_, 'a>,

@@ -22,9 +22,9 @@
 use pushplan::asset::PlanFile;
 use pushplan::geometry::{Pose, Shape};
 use pushplan::{
+    outcome::step_states,
     scene::{Feet, GRAVITY, JointTrajectory, Object, Scene, TableTop, Tool},
     task::{Leg, Task, ToolMotion},
-    verify::step_states,
 };
 use pushplan_arm::Arm;
 
@@ -219,7 +219,7 @@ fn written(
 fn legs(file: &PlanFile) -> Vec<Leg> {
     let evidence = file.verdict.as_ref().map_or(&[][..], |verdict| &verdict.evidence);
     let scene = &file.task.scene;
-    let states = step_states(&scene.start(), &file.plan, evidence);
+    let states = step_states(&scene.start(), file.plan.steps.len(), evidence);
     file.task.legs(scene, &file.tools, &file.plan, &states).unwrap_or_default()
 }
 

@@ -1,10 +1,10 @@
 //! Detours of the lifted tool.
 
 use pushplan::{
+    outcome::step_states,
     scene::Robot,
     solve::RankedPlan,
     task::{Leg, Task},
-    verify::step_states,
 };
 
 use super::plan_text::point;
@@ -12,7 +12,7 @@ use super::plan_text::point;
 /// Returns a line for each detour of the lifted tool.
 pub(super) fn detours(task: &Task, best: &RankedPlan) -> Vec<String> {
     let evidence = best.verdict.as_ref().map_or(&[][..], |verdict| &verdict.evidence);
-    let states = step_states(&task.scene.start(), &best.plan, evidence);
+    let states = step_states(&task.scene.start(), best.plan.steps.len(), evidence);
     let legs = task.legs(&task.scene, &best.tools, &best.plan, &states).unwrap_or_default();
     let line = |leg: &Leg| {
         // The column of the robot is obvious.

@@ -67,7 +67,8 @@ pub(in crate::asset) const BASE: Key = Key::optional(
     ]),
     "Half the side in metres of the square column at the origin that carries the arm, or `none`. \
      By default 0.08, or 0.06 less than a stated `reach.min` if that is less, but at least 0.04; \
-     none for lever-ups. With `urdf`, how the arm is mounted at the origin: `height` and `yaw_deg`.",
+     none for lever-ups. With `urdf`, how the arm is mounted at the origin: `height` and \
+     `yaw_deg`.",
 );
 
 pub(in crate::asset) const HOME: Key = Key::optional(

@@ -308,7 +308,7 @@ fn robot(robot: &Node, pushes: &Node, ledger: &mut Ledger) {
         ledger.fault(
             node,
             format!("home is {distance:.3} m from the base, outside the reach of {min} to {max} m"),
-            "move home, or widen the reach; `base: none` states that no column stands at the origin",
+            "move home, or widen the reach; `base: none` states that there is no column",
         );
     }
 }
