@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::{
     outcome::{Evidence, Warning, step_states},
-    scene::{JointTrajectory, Situation, State, Tool},
+    scene::{JointTrajectory, Situation, Tool},
     task::{Followed, Plan, Task},
 };
 

@@ -158,7 +158,7 @@ goal: {object: can, position: [0.7675, -0.03], tolerance: 0.01}
 #[test]
 fn a_tool_is_not_held_through_a_wall_unless_the_robot_has_no_body() {
     assert_eq!(solved(&task(PEN)).status, PlanStatus::NoPlan);
-    let bodiless = PEN.replace("max: 0.95}", "max: 0.95}, hand: none");
+    let bodiless = PEN.replace("max: 0.95}", "max: 0.95}, hand: none, base: none");
     assert_eq!(solved(&task(&bodiless)).status, PlanStatus::Solved);
 }
 

@@ -10,10 +10,11 @@ plan goes to stdout, a table for several to stderr; the exit code is 0 if all of
 
 A plan works if all objects are at rest at the end and the goal object is within the tolerance of
 position and, if the goal has one, heading, or has fallen over the right edge. Meanwhile no other
-object may topple, the tool may not be set down on an object, no object may enter an obstacle by
-2 mm, and none may fall off the table unless the task allows it. An arm in the scene is driven by
-servos alone along its joint trajectory, and may not collide. An unstable replay is repeated with
-half the time step. Lengths are in metres, angles in radians.
+object may topple, no object may enter an obstacle by 2 mm, and none may fall off the table unless
+the task allows it. The tool may not be set down on an object, and tool and hand may not touch
+anything while they travel. An arm in the scene is driven by servos alone along its joint
+trajectory, and may not collide. An unstable replay is repeated with half the time step. Lengths are
+in metres, angles in radians.
 """
 
 import argparse
@@ -150,7 +151,7 @@ class Replay:
             for k in range(steps):
                 self.move(start + (end - start) * k / steps, (end - start) / duration)
                 if k % every == 0:
-                    met(self, hand=True)
+                    met(self, "the hand collides", hand=True)
             if settle:
                 self.coast(end)
                 back = self.numbers.get(f"retreat {index + 1}")

@@ -4,6 +4,7 @@
 
 STRIDE = 5e-3  # largest distance between two checks, m
 TOUCH = -1e-4  # distance below which two bodies overlap, m
+ON_THE_WAY = "collides on the way"
 
 
 def travel(scene, step):
@@ -25,17 +26,17 @@ def travel(scene, step):
                 clear(scene, a + (b - a) * share, height)
         if leg[4]:  # to the start of a step
             for h in lifted[::-1]:
-                clear(scene, corners[-1], h)
+                clear(scene, corners[-1], h, "set down on an object")
 
 
-def clear(scene, place, height, hand=False):
-    """Fails if the current tool with its hand, or the hand alone, overlaps a body at a place."""
+def clear(scene, place, height, failure=ON_THE_WAY):
+    """Fails if the current tool with its hand overlaps a body at a place."""
     scene.place(place, 0.0, height)
     mujoco.mj_kinematics(scene.model, scene.data)
-    met(scene, hand)
+    met(scene, failure)
 
 
-def met(scene, hand):
+def met(scene, failure, hand=False):
     """Fails if the current tool with its hand, or the hand alone, overlaps a body."""
     model, data = scene.model, scene.data
     for own in scene.tool_geoms:
@@ -46,4 +47,4 @@ def met(scene, hand):
             if math.dist(data.geom_xpos[own], data.geom_xpos[other]) > reach:
                 continue
             if mujoco.mj_geomDistance(model, data, own, other, 1.0, None) < TOUCH:
-                raise Failed(f"{model.geom(own).name} meets {model.geom(other).name}")
+                raise Failed(failure)

@@ -139,9 +139,10 @@ impl Task {
         }
     }
 
-    /// Returns the positions to which `tool`, held at `yaw` (radians), can travel from home, as far
-    /// as a rough test tells; `None` if nothing but the robot's own column is higher than the
-    /// travel height. Without a `state` no object obstructs the tool.
+    /// Returns the positions to which `tool`, held at `yaw` (radians), can travel from home, by a
+    /// rough test that errs on the free side. Without a `state` no object obstructs the tool.
+    ///
+    /// Returns `None` if only the robot's own column is higher than the travel height.
     pub fn places<'a>(
         &'a self,
         scene: &'a Scene,

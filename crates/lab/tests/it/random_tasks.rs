@@ -8,7 +8,7 @@ use pushplan::geometry::{Footprint, Pose, swept_clearance, wrap_angle};
 use pushplan::task::Demand;
 use pushplan::verify::{Verifier, VerifySettings};
 use pushplan::{
-    scene::{Engine, Object, Robot, Situation},
+    scene::{Engine, Object, Situation},
     task::Task,
 };
 use pushplan_bench::store::Shard;
