@@ -326,7 +326,7 @@ fn check_explains_a_missing_plan_only_on_request() {
     assert_eq!(message(&["check", &far], 0), format!("{far}: task, valid\n"));
     let text = message(&["check", "--why", &far, &near, "tasks/levers/raise-plate.yaml"], 4);
     assert!(
-        text.contains("valid\n  no plan: the task needs 2 pushes, but `pushes.max_count` is 1"),
+        text.contains("valid\n  no plan: one push reaches 0.09 m at most, but 0.17 m is needed"),
         "{text}"
     );
     assert!(

@@ -109,16 +109,23 @@ impl<'a> Places<'a> {
         around().map(|path| (path, Some(what))).ok_or(what)
     }
 
-    /// Returns the nearest cell to home in which the tool fits and which the hand reaches.
+    /// Returns the nearest cell to home in which the tool fits and which the hand reaches. The hand
+    /// begins at home, or at the nearest position at which it fits itself.
     fn fitting(&self, hand: Space<'a>, resolution: Resolution) -> Option<Vector> {
         let free = resolution.free(&hand, &self.grid);
-        let alone =
-            Self { home: self.home, grid: self.grid, free, before: Vec::new(), space: hand };
-        let reached = alone.flood(self.home);
-        let fits = (0..self.grid.count()).filter(|&k| self.free[k] && reached[k].is_some());
         let off = |k: &usize| (self.grid.position(*k) - self.home).norm();
-        let nearest = fits.min_by(|a, b| off(a).total_cmp(&off(b)))?;
-        Some(self.grid.position(nearest))
+        let nearest = |cells: &mut dyn Iterator<Item = usize>| {
+            let found = cells.min_by(|a, b| off(a).total_cmp(&off(b)))?;
+            Some(self.grid.position(found))
+        };
+        let cells = 0..self.grid.count();
+        let from = match hand.is_free(self.home, 0.0) {
+            true => self.home,
+            false => nearest(&mut cells.clone().filter(|&k| free[k]))?,
+        };
+        let alone = Self { home: from, grid: self.grid, free, before: Vec::new(), space: hand };
+        let reached = alone.flood(from);
+        nearest(&mut cells.filter(|&k| self.free[k] && reached[k].is_some()))
     }
 
     /// Returns the previous cell for each cell that a path from a position reaches.
@@ -185,9 +192,11 @@ impl<'a> Places<'a> {
     }
 }
 
-/// Returns the home of a robot: the stated one, or the nearest position within reach.
+/// Returns the home of a robot: the stated one, or the nearest position within reach and beside its
+/// column.
 pub(super) fn home(robot: &Robot) -> Vector {
-    let (home, least) = (robot.home, robot.reach_min);
+    let home = robot.home;
+    let least = robot.reach_min.max(Robot::usual_reach_min(robot.base, robot.hand));
     match home.norm() {
         near if near >= least => home,
         near if near > 0.0 => home * (least / near),

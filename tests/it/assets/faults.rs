@@ -242,7 +242,7 @@ fn a_goal_inside_an_obstacle() {
 fn an_unreachable_home() {
     assert_snapshot!(task(&[("home: [0.2, 0]", "home: [0.6, 0.3]")]), @r#"
     t.yaml:12:15: error: home is 0.671 m from the base, outside the reach of 0.1 to 0.5 m
-      help: move home, or widen the reach; the base is at the origin
+      help: move home, or widen the reach; `base: none` states that there is no column
     "#);
 }
 
