@@ -89,7 +89,7 @@ fn contacts_name_parts_as_the_file_of_the_tool_lists_them() {
 const STICKY: &str = "
 scene:
   table: {friction: 0.3}
-  objects: [{name: can, shape: {cylinder: {radius: 0.041, height: 0.045}}, mass: 0.455, friction: 0.5, position: [0.611, 0.061]}]
+  objects: [{name: can, shape: {cylinder: {radius: 0.03, height: 0.045}}, mass: 0.455, friction: 0.5, position: [0.611, 0.061]}]
   frictions: [{between: [can, tool], coefficient: 1.64}]
 robot: {reach: {min: 0.25, max: 0.95}}
 tools: [l-hook]
