@@ -72,7 +72,7 @@ fn keep_out_strips_bind_the_lifted_tool() {
     let robot = "robot: {reach: {min: 0.2, max: 0.95}}";
     let strip = |x: f64| {
         format!(
-            "keep_out:\n  - {{name: strip, size: [0.05, 2.0], position: [{x}, 0], for: [tool, hand]}}"
+            "keep_out:\n  - {{name: strip, area: {{rectangle: {{size: [0.05, 2.0]}}}}, position: [{x}, 0], for: [tool, hand]}}"
         )
     };
     assert_eq!(can(robot, &strip(0.42)), PlanStatus::NoPlan);
