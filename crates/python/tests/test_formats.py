@@ -283,7 +283,7 @@ def test_data_are_read_by_numpy_and_equal_the_results_of_the_engines(
         name, place = scene["objects"][0]["name"], scene["objects"][0]["position"]
         task = pushplan.Task.from_dict({
             "scene": scene,
-            "robot": {"reach": {"max": 10}},
+            "robot": {"reach": {"max": 10}, "base": "none"},
             "tools": "all",
             "pushes": {"lift": float(data["lift"][episode])},
             "goal": {"object": name, "position": place, "tolerance": 0.01},
