@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use crate::geometry::Vector;
 use crate::scene::State;
-use crate::task::Places;
+use crate::task::ReachablePositions;
 
 use super::Workspace;
 
@@ -18,8 +18,8 @@ pub(super) struct Reached<'a> {
 /// Positions for the first push, and for later ones, before which objects may have moved away.
 struct Grip<'a> {
     grip: (usize, f64),
-    first: OnceLock<Option<Places<'a>>>,
-    later: OnceLock<Option<Places<'a>>>,
+    first: OnceLock<Option<ReachablePositions<'a>>>,
+    later: OnceLock<Option<ReachablePositions<'a>>>,
 }
 
 impl<'a> Reached<'a> {

@@ -35,7 +35,7 @@ pub use motion::{
 pub use observation::{Noise, Observation};
 pub use plan::{LeverStep, Plan, PushStep, Step};
 pub use push_rules::{Directions, Offsets, PushForm, PushRules};
-pub use travel::{Blocked, Leg, Places};
+pub use travel::{BlockedLeg, ReachablePositions, TravelLeg};
 pub use truth::Truth;
 
 pub(crate) use arm::read_arm;

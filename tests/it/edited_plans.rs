@@ -9,10 +9,11 @@ use pushplan::asset::PlanFile;
 use pushplan::geometry::{Pose, Vector};
 use pushplan::outcome::{LeverFault, PushFault, Reason, Verdict, Warning};
 use pushplan::scene::{ArmFault, JointTrajectory, Object, Situation, Tool};
-use pushplan::task::{LeverUp, Place, Plan, Push, PushForm, Step, Task};
+use pushplan::task::{LeverUp, Plan, Push, PushForm, Step, Task};
 use pushplan::verify::{Verifier, VerifySettings, rule_violations};
 
 use crate::arms;
+use crate::lever_follow_up::lever;
 
 const SCREWDRIVER: &str = "screwdriver";
 
@@ -45,19 +46,6 @@ fn task(text: &str) -> Task {
 
 fn tool(name: &str) -> Arc<Tool> {
     ToolLibrary::embedded().expect("the shipped tools").get(name).expect("shipped").clone()
-}
-
-fn lever() -> LeverUp {
-    LeverUp {
-        plate: 0,
-        place: Place { edge: 1, fraction: 0.5 },
-        depth: 0.012,
-        pivot: 0.12,
-        angle: 0.6,
-        speed: LeverUp::SPEED,
-        hold: LeverUp::HOLD,
-        retreat: LeverUp::RETREAT,
-    }
 }
 
 /// Returns the rules that a plan breaks in its nominal replay.

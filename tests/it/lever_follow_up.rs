@@ -44,7 +44,7 @@ fn task() -> Task {
 }
 
 /// Returns a small lever-up and return.
-fn lever() -> LeverUp {
+pub fn lever() -> LeverUp {
     LeverUp {
         plate: 0,
         place: Place { edge: 1, fraction: 0.5 },

@@ -6,8 +6,10 @@ use pushplan::ToolLibrary;
 use pushplan::geometry::{Pose, Vector};
 use pushplan::outcome::{LeverFault, PushFault, Warning};
 use pushplan::scene::{Obstacle, Scene, Situation, Tool};
-use pushplan::task::{LeverUp, Place, Plan, Push, PushForm, PushStep, Step, Task};
+use pushplan::task::{LeverUp, Plan, Push, PushForm, PushStep, Step, Task};
 use pushplan::verify::{Verifier, VerifySettings, rule_violations};
+
+use crate::lever_follow_up::lever;
 
 /// Plate that may be pushed and levered.
 const TASK: &str = "
@@ -49,19 +51,6 @@ fn pushes() -> Vec<PushStep> {
             push: Push { start: Vector::new(x, 0.0), direction: 0.0, length: 0.1, speed: 0.1 },
         })
         .into()
-}
-
-fn lever() -> LeverUp {
-    LeverUp {
-        plate: 0,
-        place: Place { edge: 1, fraction: 0.5 },
-        depth: 0.012,
-        pivot: 0.12,
-        angle: 0.6,
-        speed: 0.1,
-        hold: 0.2,
-        retreat: 0.1,
-    }
 }
 
 /// Returns the rules that pushes break in a plan of their own, after asserting that they break the

@@ -1,4 +1,4 @@
-//! The foot of an arm: obstacles in the shape of everything that is fixed to its root.
+//! The foot of an arm: obstacles around the root link and the links fixed to it.
 
 use pushplan::geometry::{Pose, Vector3};
 use pushplan::scene::{Obstacle, Robot};

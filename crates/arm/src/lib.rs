@@ -16,7 +16,7 @@
 //! - `mesh_files`: the meshes that a URDF names, in its folder or in an allowed one.
 //! - `kinematics`: frames and Jacobian from joint positions; `inverse`: joint positions from a
 //!   pose.
-//! - `room`: collisions of the arm and its tool; `foot`: the obstacles that its root is.
+//! - `room`: collisions of the arm and its tool; `foot`: the root link as obstacles.
 //! - `path`, `follow`: conversion of a plan to a
 //!   [`JointTrajectory`](pushplan::scene::JointTrajectory).
 //! - `judge`, `pace`: independent check of such a trajectory from its numbers only.

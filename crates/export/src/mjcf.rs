@@ -24,7 +24,7 @@ use pushplan::geometry::{Pose, Shape};
 use pushplan::{
     outcome::step_states,
     scene::{Feet, GRAVITY, JointTrajectory, Object, Scene, TableTop, Tool},
-    task::{Leg, Task, ToolMotion},
+    task::{Task, ToolMotion, TravelLeg},
 };
 use pushplan_arm::Arm;
 
@@ -115,7 +115,7 @@ enum Holder<'a> {
     /// Holder that never leaves the table.
     Table,
     /// Hand that lifts the tools as a robot would, and their travel.
-    Lifting(&'a Task, Vec<Leg>),
+    Lifting(&'a Task, Vec<TravelLeg>),
     /// Arm with its joint trajectory; it has one tool.
     Arm(&'a Arm, &'a JointTrajectory),
 }
@@ -216,7 +216,7 @@ fn written(
 
 /// Returns the travel of the lifted tools of a plan, with the objects where its 3-D replay, if any,
 /// has them.
-fn legs(file: &PlanFile) -> Vec<Leg> {
+fn legs(file: &PlanFile) -> Vec<TravelLeg> {
     let evidence = file.verdict.as_ref().map_or(&[][..], |verdict| &verdict.evidence);
     let scene = &file.task.scene;
     let states = step_states(&scene.start(), file.plan.steps.len(), evidence);

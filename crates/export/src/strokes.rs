@@ -3,7 +3,7 @@
 use pushplan::geometry::{Pose, Vector};
 use pushplan::{
     scene::{Object, REST_SPEED, Scene},
-    task::{COAST_FRAME, Leg, MAX_COAST_FRAMES, Task, ToolMotion},
+    task::{COAST_FRAME, MAX_COAST_FRAMES, Task, ToolMotion, TravelLeg},
 };
 
 use super::xml::{Xml, numbers};
@@ -57,7 +57,7 @@ pub(super) fn retreats(xml: &mut Xml, scene: &Scene, motions: &[ToolMotion]) {
 pub(super) fn travel(
     xml: &mut Xml,
     task: &Task,
-    (legs, motions): (&[Leg], &[ToolMotion]),
+    (legs, motions): (&[TravelLeg], &[ToolMotion]),
     number: impl Fn(&str) -> f64,
 ) {
     let Some(first) = motions.first() else { return };

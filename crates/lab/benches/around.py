@@ -11,12 +11,10 @@ gap, a region elsewhere, a goal outside. A planner that does not solve one is to
 are in metres, masses in kilograms. Only Python is needed. The exit code is 0 if no answer is wrong.
 """
 
-import argparse
 import math
 import sys
-from pathlib import Path
 
-from drawn import Draw, counts, num, solve
+from drawn import Draw, chosen, counts, num, solve, solver
 
 SMALL = ["[finger]", "[finger, paddle]", "[finger, t-head]"]
 SOME = [*SMALL, "[finger, stick]", "all"]
@@ -278,21 +276,12 @@ KINDS = [
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--out", type=Path, required=True, help="folder of the tasks")
-    parser.add_argument("--count", type=int, default=10, help="tasks of each kind; default 10")
-    parser.add_argument("--seed", type=int, default=1, help="seed of all random draws; default 1")
-    parser.add_argument("--kind", action="append", help="only this kind, repeatable; default all")
+    parser = solver(__doc__)
     parser.add_argument("--solvable", action="store_true", help="write the solvable twins")
-    parser.add_argument("--solve", help="path of the program that solves the tasks; default none")
-    parser.add_argument("--effort", default="standard", help="search effort; default standard")
     arguments = parser.parse_args()
-    arguments.out.mkdir(parents=True, exist_ok=True)
     wrong, tried = 0, 0
-    for kind in KINDS:
-        name, codes = kind.__name__.replace("_", "-"), []
-        if arguments.kind and name not in arguments.kind:
-            continue
+    for name, kind in chosen(KINDS, arguments):
+        codes = []
         for k in range(arguments.count):
             draw = Draw(f"{arguments.seed} {name} {k}")
             draw.name = f"{name}-{'open' if arguments.solvable else 'closed'}-{k:02}"

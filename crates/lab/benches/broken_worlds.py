@@ -10,22 +10,20 @@ in worlds as they state, and there an answer other than "reached" counts as wron
 metres, masses in kilograms. Only Python is needed. The exit code is 0 if no answer is wrong.
 """
 
-import argparse
 import itertools
 import json
 import math
 import subprocess
 import sys
-from pathlib import Path
 
-from drawn import Draw, counts, num
+from drawn import Draw, chosen, counts, num, parser
 
 NOISE = "noise: {position: 0.0005, heading_deg: 0.2}"
 POSITION, HEADING = 0.003, math.radians(2.0)
 
 
 class World(Draw):
-    """A task with a hidden world, and what must be true of an object after a run."""
+    """A task with a hidden world, and the conditions for the true states after a run."""
 
     def __init__(self, seed):
         super().__init__(seed)
@@ -235,7 +233,7 @@ KINDS = [
 
 
 def faults(d, trace):
-    """Returns what is wrong in the true states of a run."""
+    """Returns the faults in the true states of a run."""
     names = [one["name"] for one in trace["task"]["scene"]["objects"]]
     states = [trace["before"]] + [step["world"] for step in trace["steps"]]
     poses = [dict(zip(names, state["state"]["poses"])) for state in states]
@@ -265,20 +263,13 @@ def faults(d, trace):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--out", type=Path, required=True, help="folder of the tasks")
-    parser.add_argument("--count", type=int, default=4, help="worlds of each kind; default 4")
-    parser.add_argument("--seed", type=int, default=1, help="seed of all random draws; default 1")
-    parser.add_argument("--kind", action="append", help="only this kind, repeatable; default all")
-    parser.add_argument("--fair", action="store_true", help="worlds as the tasks state them")
-    parser.add_argument("--run", help="path of the program; default none")
-    arguments = parser.parse_args()
-    arguments.out.mkdir(parents=True, exist_ok=True)
+    options = parser(__doc__, count=4)
+    options.add_argument("--fair", action="store_true", help="worlds as the tasks state them")
+    options.add_argument("--run", help="path of the program; default none")
+    arguments = options.parse_args()
     wrong, tried = 0, 0
-    for kind in KINDS:
-        name, codes = kind.__name__.replace("_", "-"), []
-        if arguments.kind and name not in arguments.kind:
-            continue
+    for name, kind in chosen(KINDS, arguments):
+        codes = []
         for k in range(arguments.count):
             draw = World(f"{arguments.seed} {name} {k}")
             kind(draw)

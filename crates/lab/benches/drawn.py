@@ -2,9 +2,11 @@
 `broken_worlds.py`. Lengths are in metres, masses in kilograms. Only Python is needed.
 """
 
+import argparse
 import math
 import random
 import subprocess
+from pathlib import Path
 
 VERDICTS = {
     0: "solved", 3: "refused", 4: "no plan", 5: "failed", 7: "fragile", 8: "partial", 9: "stopped"
@@ -124,9 +126,37 @@ class Draw:
             (path.parent / name).write_text(text)
 
 
-def solve(program, path, *options):
-    """Solves a task and returns the exit code and what was printed."""
-    command = [program, "solve", path, "--quiet", "--threads", "1", "--out", path.parent / "plans"]
+def parser(text, count=10):
+    """Returns a parser with the options that all generators share, described by the first line of a
+    text."""
+    parser = argparse.ArgumentParser(description=text.split("\n")[0])
+    parser.add_argument("--out", type=Path, required=True, help="folder of the tasks")
+    parser.add_argument(
+        "--count", type=int, default=count, help=f"number of each kind; default {count}"
+    )
+    parser.add_argument("--seed", type=int, default=1, help="seed of all random draws; default 1")
+    parser.add_argument("--kind", action="append", help="only this kind, repeatable; default all")
+    return parser
+
+
+def solver(text):
+    """Returns a parser for generators whose tasks a program can solve."""
+    own = parser(text)
+    own.add_argument("--solve", help="path of the program that solves the tasks; default none")
+    own.add_argument("--effort", default="standard", help="search effort; default standard")
+    return own
+
+
+def chosen(kinds, arguments):
+    """Makes the folder, and returns name and function of the requested kinds."""
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    named = [(kind.__name__.replace("_", "-"), kind) for kind in kinds]
+    return [one for one in named if not arguments.kind or one[0] in arguments.kind]
+
+
+def solve(program, path, *options, verb=("solve",)):
+    """Solves a task and returns the exit code and the output."""
+    command = [program, *verb, path, "--quiet", "--threads", "1", "--out", path.parent / "plans"]
     done = subprocess.run([*command, *options], capture_output=True, text=True)
     return done.returncode, done.stdout + done.stderr
 

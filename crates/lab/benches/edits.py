@@ -40,7 +40,7 @@ def changed(key, change):
 
 
 def add(file, kind, thing, position):
-    # What the file states of the end has no such object.
+    # The stated end of the file has no such object.
     file.update(predicted=None, verdict=None)
     file["task"]["scene"][kind].append({"friction": 0.4, **thing, "position": position})
 

@@ -10,13 +10,10 @@ frictions are random and unknown. An error before planning is also correct. Leng
 masses in kilograms. Only Python is needed. The exit code is 0 if no task is solved.
 """
 
-import argparse
 import math
-import subprocess
 import sys
-from pathlib import Path
 
-from drawn import Draw, num
+from drawn import Draw, chosen, counts, num, solve, solver
 
 
 def gap_by_little(d, turn=0.0):
@@ -286,13 +283,7 @@ KINDS = [
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--out", type=Path, required=True, help="folder of the tasks")
-    parser.add_argument("--count", type=int, default=10, help="tasks of each kind; default 10")
-    parser.add_argument("--seed", type=int, default=1, help="seed of all random draws; default 1")
-    parser.add_argument("--kind", action="append", help="only this kind, repeatable; default all")
-    parser.add_argument("--solve", help="path of the program that solves the tasks; default none")
-    parser.add_argument("--effort", default="standard", help="search effort; default standard")
+    parser = solver(__doc__)
     parser.add_argument(
         "--run",
         action="store_true",
@@ -300,53 +291,25 @@ def main():
     )
     arguments = parser.parse_args()
     verb = ["run", "--world", "1"] if arguments.run else ["solve"]
-    arguments.out.mkdir(parents=True, exist_ok=True)
     wrong = 0
-    for kind in KINDS:
-        name = kind.__name__.replace("_", "-")
-        if arguments.kind and name not in arguments.kind:
-            continue
-        codes = {}
+    for name, kind in chosen(KINDS, arguments):
+        codes = []
         for k in range(arguments.count):
             draw = Draw(f"{arguments.seed} {name} {k}")
             kind(draw)
             if arguments.run:
                 draw.more.append("unknown: [masses, frictions]")
             path = arguments.out / f"{name}-{k:02}.yaml"
-            path.write_text(draw.text())
+            draw.write(path)
             if arguments.solve:
-                command = [
-                    arguments.solve,
-                    *verb,
-                    path,
-                    "--effort",
-                    arguments.effort,
-                    "--quiet",
-                    "--threads",
-                    "1",
-                    "--out",
-                    arguments.out / "plans",
-                ]
-                done = subprocess.run(command, capture_output=True, text=True)
-                codes[done.returncode] = codes.get(done.returncode, 0) + 1
-                if done.returncode == 0 and (
-                    not arguments.run or ": reached" in done.stdout.splitlines()[0]
-                ):
+                options = "--effort", arguments.effort
+                code, text = solve(arguments.solve, path, *options, verb=verb)
+                codes.append(code)
+                if code == 0 and (not arguments.run or ": reached" in text.splitlines()[0]):
                     wrong += 1
-                    print(f"  {path.name}: {done.stdout.splitlines()[0]}", flush=True)
+                    print(f"  {path.name}: {text.splitlines()[0]}", flush=True)
         if arguments.solve:
-            verdicts = {
-                0: "solved",
-                3: "refused",
-                4: "no plan",
-                5: "failed or fragile",
-                8: "partial",
-            }
-            counts = ", ".join(
-                f"{count} {verdicts.get(code, f'exit {code}')}"
-                for code, count in sorted(codes.items())
-            )
-            print(f"{name}: {counts}", flush=True)
+            print(f"{name}: {counts(codes)}", flush=True)
     if arguments.solve:
         print(f"{wrong} called solved")
     return 1 if wrong else 0

@@ -11,12 +11,10 @@ masses in kilograms. Only Python is needed. The exit code is 0 if every cause is
 advice works.
 """
 
-import argparse
 import re
 import sys
-from pathlib import Path
 
-from drawn import Draw, counts, num, solve
+from drawn import Draw, chosen, counts, num, solve, solver
 
 THIN_STICK = """name: thin-stick
 friction: 0.4
@@ -170,20 +168,9 @@ def cause(code, text):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--out", type=Path, required=True, help="folder of the tasks")
-    parser.add_argument("--count", type=int, default=10, help="tasks of each kind; default 10")
-    parser.add_argument("--seed", type=int, default=1, help="seed of all random draws; default 1")
-    parser.add_argument("--kind", action="append", help="only this kind, repeatable; default all")
-    parser.add_argument("--solve", help="path of the program that solves the tasks; default none")
-    parser.add_argument("--effort", default="standard", help="search effort; default standard")
-    arguments = parser.parse_args()
-    arguments.out.mkdir(parents=True, exist_ok=True)
+    arguments = solver(__doc__).parse_args()
     tried, named, solved = 0, 0, 0
-    for kind in KINDS:
-        name = kind.__name__.replace("_", "-")
-        if arguments.kind and name not in arguments.kind:
-            continue
+    for name, kind in chosen(KINDS, arguments):
         codes, causes, advised = [], 0, 0
         for k in range(arguments.count):
             answers = []

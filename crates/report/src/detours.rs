@@ -4,7 +4,7 @@ use pushplan::{
     outcome::step_states,
     scene::Robot,
     solve::RankedPlan,
-    task::{Leg, Task},
+    task::{Task, TravelLeg},
 };
 
 use super::plan_text::point;
@@ -14,7 +14,7 @@ pub(super) fn detours(task: &Task, best: &RankedPlan) -> Vec<String> {
     let evidence = best.verdict.as_ref().map_or(&[][..], |verdict| &verdict.evidence);
     let states = step_states(&task.scene.start(), best.plan.steps.len(), evidence);
     let legs = task.legs(&task.scene, &best.tools, &best.plan, &states).unwrap_or_default();
-    let line = |leg: &Leg| {
+    let line = |leg: &TravelLeg| {
         // The column of the robot is obvious.
         let what = leg.around.as_deref().filter(|what| !what.starts_with(Robot::BASE))?;
         let corners = &leg.path[1..leg.path.len() - 1];

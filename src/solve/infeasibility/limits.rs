@@ -203,7 +203,7 @@ fn joined<'a>(case: &'a Case<'a>) -> Vec<Relaxed<'a>> {
 }
 
 fn force<'a>(case: &'a Case<'a>) -> Vec<Relaxed<'a>> {
-    // Duration-weighted force of the gentlest plan.
+    // Largest lasting force of the gentlest plan in both engines, newtons, with a margin.
     let needed = |ways: &[Way]| {
         let lasting = |way: &Way| {
             let both = Engine::ALL.into_iter().filter_map(|engine| way.verdict.nominal(engine));

@@ -47,7 +47,7 @@ impl Resolution {
 }
 
 /// Positions to which a lifted tool can travel.
-pub struct Places<'a> {
+pub struct ReachablePositions<'a> {
     space: Space<'a>,
     grid: Grid,
     /// Cells without a collision.
@@ -58,7 +58,7 @@ pub struct Places<'a> {
     before: Vec<Option<usize>>,
 }
 
-impl<'a> Places<'a> {
+impl<'a> ReachablePositions<'a> {
     /// Computes the positions that a tool reaches from `home`. If it does not fit there, it is held
     /// with its yaw at the nearest position that fits and that the `hand` alone reaches.
     pub(super) fn from_home(

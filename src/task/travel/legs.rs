@@ -6,12 +6,12 @@ use crate::geometry::{Vector, Vector3};
 use crate::scene::{Plate, Scene, State, Tool};
 use crate::task::{Plan, PushForm, Step, Task, ToolMotion};
 
-use super::detour::{Places, Resolution, home};
+use super::detour::{ReachablePositions, Resolution, home};
 use super::space::{Space, is_open};
 
 /// Travel of a lifted tool at the travel height of its robot.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Leg {
+pub struct TravelLeg {
     /// Index of the step after which it begins; `None` for home.
     pub from: Option<usize>,
     /// Index of the step to which it leads; `None` for home.
@@ -26,7 +26,7 @@ pub struct Leg {
     pub around: Option<String>,
 }
 
-impl Leg {
+impl TravelLeg {
     /// Returns the length of its path, metres.
     pub fn length(&self) -> f64 {
         self.path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
@@ -35,7 +35,7 @@ impl Leg {
 
 /// A leg for which there is no path.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Blocked {
+pub struct BlockedLeg {
     /// Index of the step after which it begins; `None` for home.
     pub from: Option<usize>,
     /// Index of the step to which it leads; `None` for home.
@@ -108,7 +108,7 @@ impl Task {
         tools: &[Arc<Tool>],
         plan: &Plan,
         states: &[State],
-    ) -> Result<Vec<Leg>, Blocked> {
+    ) -> Result<Vec<TravelLeg>, BlockedLeg> {
         let stances = plan.steps.iter().map(|step| Stance::of(scene, tools, step));
         let stances: Option<Vec<Stance>> = stances.collect();
         let (Some(stances), None) = (stances, &self.arm) else { return Ok(Vec::new()) };
@@ -148,12 +148,12 @@ impl Task {
         scene: &'a Scene,
         state: Option<&State>,
         (tool, yaw): (&Tool, f64),
-    ) -> Option<Places<'a>> {
+    ) -> Option<ReachablePositions<'a>> {
         if self.arm.is_some() || is_open(self, scene) {
             return None;
         }
         let space = || Space::new(self, (scene, state), tool, yaw);
-        Some(Places::from_home(space(), || space().of_hand(), Resolution::ROUGH))
+        Some(ReachablePositions::from_home(space(), || space().of_hand(), Resolution::ROUGH))
     }
 }
 
@@ -174,10 +174,10 @@ impl Travel<'_> {
     /// cannot rotate to its next yaw, goes by way of home.
     fn add(
         &self,
-        legs: &mut Vec<Leg>,
+        legs: &mut Vec<TravelLeg>,
         before: Option<&Stance>,
         next: Option<&Stance>,
-    ) -> Result<(), Blocked> {
+    ) -> Result<(), BlockedLeg> {
         let last = before.map(|before| (self.step - 1, before.end));
         let first = next.map(|next| (self.step, next.start));
         if let (Some(before), Some(next)) = (before, next)
@@ -198,11 +198,11 @@ impl Travel<'_> {
         Ok(())
     }
 
-    fn leg(&self, (tool, yaw): (&Tool, f64), ends: [End; 2]) -> Result<Leg, Blocked> {
+    fn leg(&self, (tool, yaw): (&Tool, f64), ends: [End; 2]) -> Result<TravelLeg, BlockedLeg> {
         let space = self.space(tool, yaw);
         let [from, to] = ends.map(|end| end.map(|(step, _)| step));
         let at = |home: Vector| ends.map(|end| end.map_or(home, |(_, position)| position));
-        let leg = |path, around: Option<&str>| Leg {
+        let leg = |path, around: Option<&str>| TravelLeg {
             from,
             to,
             tool: tool.name.clone(),
@@ -217,12 +217,12 @@ impl Travel<'_> {
         let mut met = None;
         for resolution in Resolution::PATHS {
             let space = || self.space(tool, yaw);
-            let places = Places::from_home(space(), || space().of_hand(), resolution);
+            let places = ReachablePositions::from_home(space(), || space().of_hand(), resolution);
             match places.path(at(places.home())) {
                 Ok((path, around)) => return Ok(leg(path, around)),
                 Err(what) => met = Some(what.to_owned()),
             }
         }
-        Err(Blocked { from, to, obstacle: met.unwrap_or_default() })
+        Err(BlockedLeg { from, to, obstacle: met.unwrap_or_default() })
     }
 }

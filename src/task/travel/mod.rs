@@ -7,5 +7,5 @@ mod space;
 #[cfg(test)]
 mod tests;
 
-pub use detour::Places;
-pub use legs::{Blocked, Leg};
+pub use detour::ReachablePositions;
+pub use legs::{BlockedLeg, TravelLeg};

@@ -6,7 +6,7 @@ use crate::geometry::{Pose, Vector};
 use crate::scene::{Object, Obstacle, Part, Region, Robot, Scene, Tool};
 use crate::task::{Goal, Plan, Push, PushForm, Task};
 
-use super::{Blocked, Leg};
+use super::{BlockedLeg, TravelLeg};
 
 /// A push of 0.1 m along y from a start, metres.
 fn push(x: f64, y: f64) -> Push {
@@ -25,7 +25,7 @@ fn task(obstacles: Vec<Obstacle>) -> Task {
     Task::new("t", scene, Robot::reaching(0.2, 1.0), Goal::new(0, [0.8, 0.3], 0.02))
 }
 
-fn legs(task: &Task, pushes: &[Push]) -> Result<Vec<Leg>, Blocked> {
+fn legs(task: &Task, pushes: &[Push]) -> Result<Vec<TravelLeg>, BlockedLeg> {
     let plan = Plan::pushing("bar", 0.0, PushForm::Placed, 0.002, pushes.to_vec());
     task.legs(&task.scene, &[bar("bar")], &plan, &[])
 }
@@ -36,7 +36,7 @@ fn wall(height: f64, width: f64) -> Obstacle {
 
 #[test]
 fn a_lifted_tool_goes_over_what_is_low_and_around_what_is_tall() {
-    let ends = |leg: &Leg| (leg.from, leg.to, leg.around.clone());
+    let ends = |leg: &TravelLeg| (leg.from, leg.to, leg.around.clone());
     let over = legs(&task(vec![wall(0.2, 0.4)]), &[push(0.8, 0.0)]).expect("over");
     let straight: Vec<_> = over.iter().map(ends).collect();
     assert_eq!(straight, [(None, Some(0), None), (Some(0), None, None)]);
@@ -51,7 +51,7 @@ fn a_lifted_tool_goes_over_what_is_low_and_around_what_is_tall() {
 #[test]
 fn what_encloses_the_object_or_the_robot_leaves_no_path() {
     // The wall extends over the whole reach, and the column is behind it.
-    let blocked = |from, to| Blocked { from, to, obstacle: "wall".into() };
+    let blocked = |from, to| BlockedLeg { from, to, obstacle: "wall".into() };
     let across = legs(&task(vec![wall(0.5, 2.4)]), &[push(0.8, 0.0)]);
     assert_eq!(across, Err(blocked(None, Some(0))));
     // A raised wall blocks as well, one that ends below the travel height does not.
@@ -118,7 +118,7 @@ fn tools_change_at_home_and_do_not_rotate_through_walls() {
 fn the_column_is_bypassed_and_a_tool_that_does_not_fit_at_home_is_held_beside_it() {
     let behind = legs(&task(Vec::new()), &[push(-0.6, 0.0)]).expect("around the column");
     assert_eq!(behind[0].around.as_deref(), Some(Robot::BASE));
-    let near = |leg: &Leg| leg.path.iter().map(|at| at.norm()).fold(f64::INFINITY, f64::min);
+    let near = |leg: &TravelLeg| leg.path.iter().map(|at| at.norm()).fold(f64::INFINITY, f64::min);
     assert!(near(&behind[0]) > 0.2 - 1e-9, "{behind:?}");
     // At home the rod would extend through the wall.
     let long = Part::cuboid("rod", [0.6, 0.02, 0.05], Pose::new(0.3, 0.0, 0.0));

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::geometry::{Footprint, Pose, clearance};
 use crate::outcome::Warning;
 use crate::scene::{Scene, State, Tool};
-use crate::task::{Blocked, Plan, Task, ToolMotion};
+use crate::task::{BlockedLeg, Plan, Task, ToolMotion};
 
 use super::SLACK;
 
@@ -20,7 +20,7 @@ pub(in crate::verify) fn travel_faults(
 ) -> Vec<Warning> {
     let mut found = not_lifted(scene, library, plan, states);
     let blocked = task.legs(scene, library, plan, states).err();
-    found.extend(blocked.map(|Blocked { from, to, obstacle }| {
+    found.extend(blocked.map(|BlockedLeg { from, to, obstacle }| {
         let push = to.or(from).unwrap_or_default();
         Warning::NoWay { push, back: to.is_none(), obstacle }
     }));

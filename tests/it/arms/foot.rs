@@ -1,4 +1,4 @@
-//! The foot of an arm: its root link, what is fixed to it, and a second arm at rest.
+//! The foot of an arm: its root link, the links fixed to it, and a second arm at rest.
 
 use pushplan::solve::{Effort, PlanStatus, Planner};
 use pushplan::task::Task;
