@@ -16,6 +16,22 @@ const README: &str = include_str!("../../README.md");
 /// Prefix of commands in the README.
 const RUN: &str = "pushplan ";
 
+/// Prefix of the commands that build from a checkout.
+const BUILD: &str = "cargo ";
+
+/// Only the command has a program, so `cargo run` in the root starts it.
+#[test]
+fn the_root_has_one_program() {
+    let root = std::fs::read_to_string(Path::new(ROOT).join("Cargo.toml")).expect("a manifest");
+    let list = root.split("default-members = [").nth(1).and_then(|rest| rest.split(']').next());
+    let members = list.expect("members").split('"').skip(1).step_by(2);
+    let of = |member: &&str| {
+        let folder = Path::new(ROOT).join(member).join("src");
+        folder.join("main.rs").exists() || folder.join("bin").exists()
+    };
+    assert_eq!(members.filter(of).collect::<Vec<_>>(), ["crates/command"]);
+}
+
 #[test]
 fn its_commands_run() {
     let out = TempDir::new().expect("a folder");
@@ -38,7 +54,15 @@ fn its_commands_run() {
         let old = format!("tasks/{name} is old: {act} --out tasks, and remove the trace");
         assert!(made.unwrap() == shown.unwrap(), "{old}");
     }
-    assert!(README.contains("`cargo test --release`"));
+    let built: Vec<&str> = blocks
+        .iter()
+        .flat_map(|block| block.lines())
+        .filter_map(|l| l.strip_prefix(BUILD))
+        .collect();
+    let [run, "test --release --locked"] = built[..] else { panic!("run and test: {built:?}") };
+    let solved =
+        run.strip_prefix("run --release --locked -- ").expect("one command builds and runs");
+    succeed(&format!("{solved} --out {folder}"));
     assert!(README.contains("`pushplan new my-task`"));
     succeed(&format!("new {folder}/my-task"));
     succeed(&format!("solve {folder}/my-task.yaml --out {folder}"));
