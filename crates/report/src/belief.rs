@@ -8,6 +8,7 @@ use pushplan_act::belief::{Belief, JointType, MassShares, NO_STOP};
 use super::chart::{Axis, Chart, Mark, Series};
 use super::document::{Document, Drawing, Figure, Section};
 use super::number::degrees;
+use super::plan_text::point;
 use super::table::{
     Align::{Left, Right},
     NONE, Table,
@@ -120,7 +121,7 @@ fn place(joint: &Joint) -> String {
         JointKind::Fixed => NONE.to_owned(),
         JointKind::Revolute { at, limits } => {
             let left = stops(limits, NO_STOP[0], degrees);
-            format!("at ({:.3}, {:.3}) m{left}", at.x, at.y)
+            format!("at {}{left}", point(at))
         }
         JointKind::Prismatic { axis, limits } => {
             let left = stops(limits, NO_STOP[1], |far| format!("{} mm", (1e3 * far).round() + 0.0));

@@ -83,6 +83,7 @@ impl Document {
     /// Returns the complete content as JSON, with the schema version.
     pub fn to_json(&self) -> String {
         let mut report = self.json.clone();
+        unsign_zeros(&mut report);
         report["schema_version"] = json!(PLAN_VERSION);
         format!("{report:#}\n")
     }
@@ -131,6 +132,18 @@ impl Document {
     }
 }
 
+/// Replaces every -0 by 0.
+fn unsign_zeros(value: &mut Json) {
+    match value {
+        Json::Number(number) if number.as_f64() == Some(0.0) && !number.is_u64() => {
+            *value = json!(0.0);
+        }
+        Json::Array(values) => values.iter_mut().for_each(unsign_zeros),
+        Json::Object(fields) => fields.values_mut().for_each(unsign_zeros),
+        _ => {}
+    }
+}
+
 impl Figure {
     /// Returns a figure of a chart, with the file name `name`.
     pub fn chart(name: impl Into<String>, chart: Chart) -> Self {
@@ -167,5 +180,22 @@ impl Figure {
             Drawing::Bars(bars) => &bars.title,
             Drawing::Svg(_) => &self.name,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zero_has_no_sign_in_json() {
+        let document = Document {
+            json: json!({"a": [-0.0, -0.5, 0], "b": {"c": -0.0}}),
+            ..Document::default()
+        };
+        let text = document.to_json();
+        let read: Json = serde_json::from_str(&text).expect("JSON");
+        assert_eq!((&read["a"], &read["b"]), (&json!([0.0, -0.5, 0]), &json!({"c": 0.0})));
+        assert!(!text.contains("-0.0"), "{text}");
     }
 }

@@ -1,27 +1,33 @@
 //! Quantities with units, formatted concisely.
 
+use pushplan::geometry::fixed;
+
 /// Formats a length given in metres, in millimetres.
 pub fn millimetres(metres: f64) -> String {
     let value = metres * 1e3;
     if !value.is_finite() {
         "not finite".to_owned()
     } else if value.abs() < 99.95 {
-        format!("{value:.1} mm")
+        format!("{} mm", fixed(value, 1))
     } else {
-        format!("{value:.0} mm")
+        format!("{} mm", fixed(value, 0))
     }
 }
 
 /// Formats a length as [`millimetres`] does, with two decimals below a centimetre, where a tenth of
 /// a millimetre is a few per cent.
 pub fn fine_millimetres(metres: f64) -> String {
-    if metres.abs() < 0.00995 { format!("{:.2} mm", metres * 1e3) } else { millimetres(metres) }
+    if metres.abs() < 0.00995 {
+        format!("{} mm", fixed(metres * 1e3, 2))
+    } else {
+        millimetres(metres)
+    }
 }
 
 /// Formats an angle given in radians, in degrees.
 pub fn degrees(radians: f64) -> String {
     let value = radians.to_degrees();
-    if value.is_finite() { format!("{value:.1}\u{00b0}") } else { "not finite".to_owned() }
+    if value.is_finite() { format!("{}\u{00b0}", fixed(value, 1)) } else { "not finite".to_owned() }
 }
 
 /// Formats a duration given in seconds, in the unit that leaves two to four digits.
@@ -51,6 +57,8 @@ mod tests {
         assert_eq!(fine_millimetres(0.4127), "413 mm");
         assert_eq!(fine_millimetres(f64::NAN), "not finite");
         assert_eq!(degrees(std::f64::consts::FRAC_PI_2), "90.0\u{00b0}");
+        assert_eq!([millimetres(-1e-6), degrees(-1e-6)], ["0.0 mm", "0.0\u{00b0}"]);
+        assert_eq!(fine_millimetres(-0.0), "0.00 mm");
         assert_eq!(seconds(0.0123), "12.3 ms");
         assert_eq!(seconds(5400.0), "90.0 min");
     }

@@ -1,6 +1,6 @@
 //! Plans and their outcomes as sentences and tables for the terminal.
 
-use pushplan::geometry::{Vector, wrap_angle};
+use pushplan::geometry::{Vector, fixed, wrap_angle};
 use pushplan::{
     outcome::{Outcome, Warning},
     scene::Engine,
@@ -229,7 +229,7 @@ pub(super) fn goal_line(task: &Task) -> String {
 
 /// Formats a position on the table.
 pub(super) fn point(position: Vector) -> String {
-    format!("({:.3}, {:.3}) m", position.x + 0.0, position.y + 0.0)
+    format!("({}, {}) m", fixed(position.x, 3), fixed(position.y, 3))
 }
 
 /// Formats a direction in degrees, in (-180, 180] as shown.
@@ -241,7 +241,7 @@ fn direction(radians: f64) -> String {
 }
 
 fn whole_degrees(radians: f64) -> String {
-    format!("{:.0}\u{00b0}", radians.to_degrees() + 0.0)
+    format!("{}\u{00b0}", fixed(radians.to_degrees(), 0))
 }
 
 #[cfg(test)]

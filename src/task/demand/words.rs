@@ -1,6 +1,6 @@
 //! Quantities in words.
 
-use crate::geometry::Vector;
+use crate::geometry::{Vector, fixed};
 
 /// Formats a length given in metres.
 pub(super) fn millimetres(metres: f64) -> String {
@@ -8,7 +8,7 @@ pub(super) fn millimetres(metres: f64) -> String {
     if !value.is_finite() {
         "not finite".to_owned()
     } else if value.abs() < 99.95 {
-        format!("{value:.1} mm")
+        format!("{} mm", fixed(value, 1))
     } else {
         format!("{value:.0} mm")
     }
@@ -17,10 +17,10 @@ pub(super) fn millimetres(metres: f64) -> String {
 /// Formats an angle given in radians.
 pub(super) fn degrees(radians: f64) -> String {
     let value = radians.to_degrees();
-    if value.is_finite() { format!("{value:.1}\u{00b0}") } else { "not finite".to_owned() }
+    if value.is_finite() { format!("{}\u{00b0}", fixed(value, 1)) } else { "not finite".to_owned() }
 }
 
 /// Formats a position on the table, metres.
 pub(super) fn point(position: Vector) -> String {
-    format!("({:.3}, {:.3}) m", position.x + 0.0, position.y + 0.0)
+    format!("({}, {}) m", fixed(position.x, 3), fixed(position.y, 3))
 }

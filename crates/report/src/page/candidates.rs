@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use pushplan::geometry::fixed;
 use pushplan::plan::{Infeasible, ScoredPush, Start, bare, is_behind};
 use pushplan::solve::Solution;
 
@@ -77,7 +78,7 @@ fn grid(solution: &Solution, pushes: &[ScoredPush], reasons: &[Infeasible]) -> G
     Grid {
         tool: tool.name.clone(),
         pushes: first.pushes,
-        yaw: format!("{:.0}", first.grip_yaw.to_degrees() + 0.0),
+        yaw: fixed(first.grip_yaw.to_degrees(), 0),
         faces: faces.into_iter().map(name).collect(),
         directions: directions.iter().map(|way| (way.to_degrees() * 10.0).round() / 10.0).collect(),
         offsets: pushes.iter().map(offset).collect(),

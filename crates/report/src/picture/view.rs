@@ -1,7 +1,7 @@
 //! Mapping from the table to the page: bounds, scale, grid and scale bar.
 
 use crate::svg::{Anchor, Font, Style, Svg};
-use pushplan::geometry::{Footprint, Pose, Vector};
+use pushplan::geometry::{Footprint, Pose, Vector, fixed};
 
 use super::palette;
 
@@ -212,7 +212,7 @@ fn line_style(k: f64) -> Style {
 }
 
 fn label(value: f64) -> String {
-    let text = format!("{value:.2}");
+    let text = fixed(value, 2);
     text.trim_end_matches('0').trim_end_matches('.').replace("-0.", "\u{2212}0.").to_string()
 }
 
