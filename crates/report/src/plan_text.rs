@@ -2,7 +2,7 @@
 
 use pushplan::geometry::{Vector, fixed, wrap_angle};
 use pushplan::{
-    outcome::{Outcome, Warning},
+    outcome::{MovedObject, Outcome, StepMoves, Trajectory, Verdict, Warning, step_moves},
     scene::Engine,
     task::{Goal, LeverUp, Plan, Step, Task},
 };
@@ -52,50 +52,130 @@ fn row_line(row: &[Step]) -> String {
     }
 }
 
-/// Returns the steps in full, one table for each tool and grip.
-pub(super) fn plan_sections(plan: &Plan) -> Vec<Section> {
+/// Returns the objects that each step moves, from the nominal 3-D replay, otherwise from the 2-D
+/// replay or the prediction; empty if none of them recorded every step.
+pub(super) fn moves(
+    task: &Task,
+    plan: &Plan,
+    predicted: Option<&Trajectory>,
+    verdict: Option<&Verdict>,
+) -> Vec<StepMoves> {
+    let nominal = |engine| verdict?.nominal(engine)?.trajectory.as_ref();
+    let replayed = Engine::ALL.into_iter().rev().filter_map(nominal);
+    let found = replayed.chain(predicted).map(|one| step_moves(task, plan.steps.len(), one));
+    let mut moves = found.into_iter().find(|moves| !moves.is_empty()).unwrap_or_default();
+    for (step, moved) in plan.steps.iter().zip(&mut moves) {
+        // A raised plate may end where it began.
+        if let (Step::LeverUp(step), None) = (step, &moved.object) {
+            let name = task.scene.objects.get(step.lever.plate).map(|plate| plate.name.clone());
+            moved.object = name.map(|object| MovedObject { object, moved: 0.0, turned: 0.0 });
+        }
+    }
+    moves
+}
+
+/// Formats the objects that each step moves in one line; empty if they are unknown.
+pub(super) fn moves_line(moves: &[StepMoves]) -> String {
+    let words = |step: &StepMoves| {
+        let also = also(step);
+        let also = if also == NONE { String::new() } else { format!(" and also {also}") };
+        format!("{}{also}", object(step))
+    };
+    match moves {
+        [] => String::new(),
+        [one] => format!("moves {}", words(one)),
+        _ => {
+            let of =
+                |(k, step): (usize, &StepMoves)| format!("step {} moves {}", k + 1, words(step));
+            moves.iter().enumerate().map(of).collect::<Vec<String>>().join("; ")
+        }
+    }
+}
+
+/// Formats the object that a step is for.
+fn object(step: &StepMoves) -> String {
+    step.object.as_ref().map_or("nothing".to_owned(), |one| one.object.clone())
+}
+
+/// Formats the other objects that a step moves.
+fn also(step: &StepMoves) -> String {
+    let of = |one: &MovedObject| format!("{} by {}", one.object, millimetres(one.moved));
+    let also: Vec<String> = step.also.iter().map(of).collect();
+    if also.is_empty() { NONE.to_owned() } else { also.join(", ") }
+}
+
+/// Returns the steps in full, one table for each tool and grip, with the objects that they move.
+pub(super) fn plan_sections(plan: &Plan, moves: &[StepMoves]) -> Vec<Section> {
     let rows = rows(plan);
+    let mut rest = moves;
     let section = |(k, row): (usize, &&[Step])| {
+        let own = rest.split_off(..row.len().min(rest.len())).unwrap_or_default();
         let title = match k {
             0 => String::new(),
             _ => format!("Then, once everything is at rest: {}", row_line(row)),
         };
         let table = match &row[0] {
-            Step::Push(_) => push_table(row),
-            Step::LeverUp(step) => lever_table(&step.lever),
+            Step::Push(_) => push_table(row, own),
+            Step::LeverUp(step) => lever_table(&step.lever, own),
         };
         Section { title, table, ..Section::default() }
     };
     rows.iter().enumerate().map(section).collect()
 }
 
-fn push_table(row: &[Step]) -> Table {
+/// Step of a table with the objects that it moves, if known.
+type Shown<'a, T> = (usize, &'a T, Option<&'a StepMoves>);
+
+/// Returns a table of `steps`; columns on moved objects are added to `columns` if there are any.
+fn step_table<'a, T>(
+    steps: impl Iterator<Item = &'a T>,
+    moves: &'a [StepMoves],
+    columns: &[Column<Shown<'a, T>>],
+) -> Table {
+    let known = |of: fn(&StepMoves) -> String| {
+        move |(.., moves): &Shown<'a, T>| moves.map_or(NONE.to_owned(), of)
+    };
+    let [object, also] = [known(object), known(also)];
+    let mut columns: Vec<Column<Shown<'a, T>>> = columns.to_vec();
+    if !moves.is_empty() {
+        columns.push(("moves", Left, &object));
+    }
+    if moves.iter().any(|step| !step.also.is_empty()) {
+        columns.push(("also moves", Left, &also));
+    }
+    Table::of(steps.enumerate().map(|(k, step)| (k, step, moves.get(k))), &columns)
+}
+
+fn push_table(row: &[Step], moves: &[StepMoves]) -> Table {
     let pushes = row.iter().filter_map(|step| match step {
         Step::Push(step) => Some(&step.push),
         Step::LeverUp(_) => None,
     });
-    Table::of(
-        pushes.enumerate(),
+    step_table(
+        pushes,
+        moves,
         &[
-            ("push", Right, &|(k, _)| (k + 1).to_string()),
-            ("end effector starts at", Left, &|(_, push)| point(push.start)),
-            ("direction", Right, &|(_, push)| direction(push.direction)),
-            ("length", Right, &|(_, push)| millimetres(push.length)),
-            ("speed", Right, &|(_, push)| format!("{:.2} m/s", push.speed)),
+            ("push", Right, &|(k, ..)| (k + 1).to_string()),
+            ("end effector starts at", Left, &|(_, push, _)| point(push.start)),
+            ("direction", Right, &|(_, push, _)| direction(push.direction)),
+            ("length", Right, &|(_, push, _)| millimetres(push.length)),
+            ("speed", Right, &|(_, push, _)| format!("{:.2} m/s", push.speed)),
         ],
     )
 }
 
-fn lever_table(lever: &LeverUp) -> Table {
-    Table::of(
-        [lever],
+fn lever_table(lever: &LeverUp, moves: &[StepMoves]) -> Table {
+    let share = |fraction: f64| format!("{:.0} %", 100.0 * fraction);
+    step_table(
+        [lever].into_iter(),
+        moves,
         &[
-            ("edge", Right, &|lever| lever.place.edge.to_string()),
-            ("along the edge", Right, &|lever| format!("{:.0} %", 100.0 * lever.place.fraction)),
-            ("depth", Right, &|lever| millimetres(lever.depth)),
-            ("pivot", Right, &|lever| millimetres(lever.pivot)),
-            ("rotation", Right, &|lever| degrees(lever.angle)),
-            ("speed", Right, &|lever| format!("{:.2} m/s", lever.speed)),
+            ("edge", Right, &|(_, lever, _)| lever.place.edge.to_string()),
+            ("along the edge", Right, &|(_, lever, _)| share(lever.place.fraction)),
+            ("depth", Right, &|(_, lever, _)| millimetres(lever.depth)),
+            ("pivot", Right, &|(_, lever, _)| millimetres(lever.pivot)),
+            ("rotation", Right, &|(_, lever, _)| degrees(lever.angle)),
+            ("speed", Right, &|(_, lever, _)| format!("{:.2} m/s", lever.speed)),
         ],
     )
 }
@@ -255,9 +335,26 @@ mod tests {
         let yaw = -std::f64::consts::FRAC_PI_2;
         let plan = Plan::pushing("l-hook", yaw, PushForm::Placed, 0.002, [push]);
         insta::assert_snapshot!(plan_line(&plan), @"l-hook, grip yaw -90°, 1 push");
-        insta::assert_snapshot!(plan_sections(&plan)[0].table.to_text(), @r"
+        insta::assert_snapshot!(plan_sections(&plan, &[])[0].table.to_text(), @r"
         push  end effector starts at  direction  length     speed
            1  (0.420, 0.000) m          -176.7°  200 mm  0.10 m/s
         ");
+    }
+    #[test]
+    fn every_step_names_what_it_moves() {
+        let push = Push { start: Vector::new(0.42, 0.0), direction: 0.0, length: 0.2, speed: 0.1 };
+        let plan = Plan::pushing("stick", 0.0, PushForm::Placed, 0.002, [push, push]);
+        let moved =
+            |object: &str, moved| MovedObject { object: object.to_owned(), moved, turned: 0.0 };
+        let first = StepMoves { object: Some(moved("b", 0.1)), also: vec![moved("vase", 0.0123)] };
+        let moves = [first, StepMoves::default()];
+        insta::assert_snapshot!(plan_sections(&plan, &moves)[0].table.to_text(), @r"
+        push  end effector starts at  direction  length     speed  moves    also moves
+           1  (0.420, 0.000) m             0.0°  200 mm  0.10 m/s  b        vase by 12.3 mm
+           2  (0.420, 0.000) m             0.0°  200 mm  0.10 m/s  nothing  –
+        ");
+        let line = "step 1 moves b and also vase by 12.3 mm; step 2 moves nothing";
+        assert_eq!(moves_line(&moves), line);
+        assert_eq!(moves_line(&moves[1..]), "moves nothing");
     }
 }

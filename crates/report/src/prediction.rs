@@ -11,7 +11,7 @@ use pushplan_bench::TimedEffect;
 
 use super::document::{Document, Section};
 use super::number::{degrees, millimetres, seconds};
-use super::plan_text::{goal_line, outcome_table, plan_line, plan_sections, point};
+use super::plan_text::{goal_line, moves, outcome_table, plan_line, plan_sections, point};
 use super::table::{
     Align::{Left, Right},
     NONE, Table,
@@ -50,6 +50,8 @@ pub fn prediction_document(task: &Task, plan: &Plan, effects: &[TimedEffect]) ->
         });
         Section { table: outcome_table(task, rows), ..Section::default() }
     });
+    let first = effects.first().map(|effect| &effect.trajectory);
+    let moves = moves(task, plan, first, None);
     let ends = Section {
         table: effect_table(task, effects),
         lines: vec![format!("goal: {}", goal_line(task))],
@@ -57,8 +59,10 @@ pub fn prediction_document(task: &Task, plan: &Plan, effects: &[TimedEffect]) ->
     };
     Document {
         title: plan_line(plan),
-        sections: plan_sections(plan).into_iter().chain(lying).chain([ends]).collect(),
-        json: json!({"task": task.name, "plan": plan, "objects": objects, "effects": json}),
+        sections: plan_sections(plan, &moves).into_iter().chain(lying).chain([ends]).collect(),
+        json: json!({
+            "task": task.name, "plan": plan, "moves": moves, "objects": objects, "effects": json,
+        }),
         ..Document::default()
     }
 }

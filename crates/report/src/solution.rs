@@ -2,7 +2,8 @@
 
 use serde_json::{Value as Json, json};
 
-use pushplan::solve::{PlanStatus, Solution};
+use pushplan::outcome::StepMoves;
+use pushplan::solve::{PlanStatus, RankedPlan, Solution};
 use pushplan::{
     scene::{CORRECTED, ModelKind, ModelPart, ModelSpec},
     task::{Goal, Task},
@@ -12,7 +13,7 @@ use super::bystanders::{self, bystanders};
 use super::detours::detours;
 use super::document::{Document, Section};
 use super::number::seconds;
-use super::plan_text::{goal_line, plan_line, plan_sections, point};
+use super::plan_text::{goal_line, moves, plan_line, plan_sections, point};
 use super::table::{Align, Table};
 use super::verdict::{outcome_section, verdict_line};
 
@@ -20,7 +21,7 @@ use super::verdict::{outcome_section, verdict_line};
 pub fn solution_document(task: &Task, solution: &Solution) -> Document {
     let mut sections = Vec::new();
     if let Some(best) = solution.best() {
-        sections.extend(plan_sections(&best.plan));
+        sections.extend(plan_sections(&best.plan, &moved_by(task, best)));
         let fault = best.predicted.warnings.iter().find(|warning| warning.forbids_success());
         let predicted = Some((best.predicted.by.to_string(), &best.outcome, fault));
         let mut outcomes = outcome_section(task, predicted, best.verdict.as_ref());
@@ -187,6 +188,11 @@ fn cost(solution: &Solution) -> String {
     )
 }
 
+/// Returns the objects that each step of a ranked plan moves.
+pub(super) fn moved_by(task: &Task, ranked: &RankedPlan) -> Vec<StepMoves> {
+    moves(task, &ranked.plan, Some(&ranked.predicted), ranked.verdict.as_ref())
+}
+
 fn json(task: &Task, solution: &Solution) -> Json {
     let plans: Vec<Json> = solution
         .plans
@@ -194,6 +200,7 @@ fn json(task: &Task, solution: &Solution) -> Json {
         .map(|ranked| {
             json!({
                 "plan": ranked.plan,
+                "moves": moved_by(task, ranked),
                 "predicted": ranked.outcome,
                 "verdict": ranked.verdict,
                 "refinement": ranked.refinement,

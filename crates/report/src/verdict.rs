@@ -12,7 +12,7 @@ use pushplan::{
 use super::bystanders::{self, bystanders};
 use super::document::{Document, Section};
 use super::number::{degrees, millimetres};
-use super::plan_text::{engine_name, goal_line, outcome_table, plan_line, plan_sections};
+use super::plan_text::{engine_name, goal_line, moves, outcome_table, plan_line, plan_sections};
 use super::recorded::percent;
 use super::second_opinion::Judged;
 
@@ -23,12 +23,13 @@ pub fn verdict_document<'a>(file: &PlanFile, judged: impl Into<Judged<'a>>) -> D
     let predicted = predicted.map(|(model, outcome)| (model.to_string(), outcome, None));
     let mut outcomes = outcome_section(&file.task, predicted, Some(verdict));
     outcomes.lines.extend(second.map(|second| format!("second opinion: {}", second.line())));
+    let moves = moves(&file.task, &file.plan, None, Some(verdict));
     let mut document = Document {
         title: format!("{}: {}", file.task.name, plan_line(&file.plan)),
         notes: vec![format!("goal: {}", goal_line(&file.task))],
-        sections: plan_sections(&file.plan).into_iter().chain([outcomes]).collect(),
+        sections: plan_sections(&file.plan, &moves).into_iter().chain([outcomes]).collect(),
         json: json!({
-            "task": file.task.name, "plan": file.plan, "verdict": verdict,
+            "task": file.task.name, "plan": file.plan, "moves": moves, "verdict": verdict,
             "reason": verdict_line(&file.task, Some(verdict)),
             "moved": bystanders::json(&bystanders(&file.task, None, Some(verdict))),
         }),

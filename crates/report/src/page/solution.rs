@@ -1,8 +1,8 @@
 //! The page of a solved task: its plans, its tools, and the considered pushes.
 
 use crate::number::millimetres;
-use crate::plan_text::{engine_name, plan_line};
-use crate::solution::{headline, models_words};
+use crate::plan_text::{engine_name, moves_line, plan_line};
+use crate::solution::{headline, models_words, moved_by};
 use crate::table::NONE;
 use crate::verdict::verdict_line;
 use pushplan::plan::{ScoredPush, bare, is_behind};
@@ -50,7 +50,7 @@ pub fn solution_page(
         let plan = making.plan(&ranked.tools, &ranked.plan, recipe(ranked));
         plan.standing = verdict.map_or(Standing::Open, standing);
         plan.verdict = if k == 0 { verdict_line(task, verdict) } else { why.clone() };
-        plan.cells = cells(ranked, replayed, why);
+        plan.cells = cells(task, ranked, replayed, why);
         plan.ends = verdict.map_or(Vec::new(), |verdict| ends(task, verdict));
         plan.replays = list;
     }
@@ -65,7 +65,7 @@ pub fn solution_page(
     html::page(&making.data, view)
 }
 
-fn cells(ranked: &RankedPlan, replayed: Option<&Verdict>, why: String) -> Vec<String> {
+fn cells(task: &Task, ranked: &RankedPlan, replayed: Option<&Verdict>, why: String) -> Vec<String> {
     let error = |outcome: Option<&Outcome>| {
         outcome.map_or(NONE.to_owned(), |outcome| {
             match (outcome.state.space.is_some(), outcome.reached) {
@@ -82,7 +82,9 @@ fn cells(ranked: &RankedPlan, replayed: Option<&Verdict>, why: String) -> Vec<St
         let (reached, replays, _) = found;
         format!("{reached} of {replays}")
     });
-    vec![plan_line(&ranked.plan), error(Some(&ranked.outcome)), planar, spatial, disturbed, why]
+    let words = [plan_line(&ranked.plan), moves_line(&moved_by(task, ranked))];
+    let plan = words.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join("; ");
+    vec![plan, error(Some(&ranked.outcome)), planar, spatial, disturbed, why]
 }
 
 /// Returns the number of perturbed replays that reach the goal, the number of replays, and the
