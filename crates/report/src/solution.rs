@@ -128,17 +128,32 @@ fn refusals(solution: &Solution) -> Option<Section> {
     })
 }
 
-/// Returns a section on the other verified plans.
+/// Largest number of rows on other plans.
+const OTHERS: usize = 7;
+
+/// Returns a section on the other verified plans; plans with equal descriptions share a row.
 fn alternatives(task: &Task, solution: &Solution) -> Option<Section> {
     let verified = solution.plans.iter().skip(1).filter(|plan| plan.verdict.is_some());
-    let others: Vec<_> = verified.take(7).collect();
+    let mut others: Vec<([String; 2], usize)> = Vec::new();
+    for ranked in verified {
+        let line = [plan_line(&ranked.plan), verdict_line(task, ranked.verdict.as_ref())];
+        match others.iter_mut().find(|(known, _)| *known == line) {
+            Some((_, count)) => *count += 1,
+            None => others.push((line, 1)),
+        }
+    }
+    others.truncate(OTHERS);
+    let plan = |plan: &str, count: usize| match count {
+        1 => plan.to_owned(),
+        _ => format!("{plan} ({count} plans)"),
+    };
     (!others.is_empty()).then(|| Section {
         title: "Other plans".to_owned(),
         table: Table::of(
             others,
             &[
-                ("plan", Align::Left, &|ranked| plan_line(&ranked.plan)),
-                ("verdict", Align::Left, &|ranked| verdict_line(task, ranked.verdict.as_ref())),
+                ("plan", Align::Left, &|([words, _], count)| plan(words, *count)),
+                ("verdict", Align::Left, &|([_, verdict], _)| verdict.clone()),
             ],
         ),
         ..Section::default()
@@ -175,16 +190,23 @@ pub(super) fn models_words(task: &Task, solution: &Solution) -> String {
 fn cost(solution: &Solution) -> String {
     let statistics = &solution.statistics;
     let timing = &statistics.timing;
+    let stages = [
+        ("search", timing.search),
+        ("refinement", timing.refinement),
+        ("verification", timing.verification),
+    ];
+    // Levering tasks have no refinement.
+    let stages = stages.into_iter().filter(|(_, taken)| *taken > 0.0);
+    let stages: Vec<String> =
+        stages.map(|(stage, taken)| format!("{stage} {}", seconds(taken))).collect();
+    let stages =
+        if stages.is_empty() { String::new() } else { format!(" ({})", stages.join(", ")) };
     format!(
-        "rollouts: {}, of which {} with the final model; plans verified: {}; time: {} (search {}, \
-         refinement {}, verification {})",
+        "rollouts: {}, of which {} with the final model; plans verified: {}; time: {}{stages}",
         statistics.rollouts,
         statistics.decided,
         statistics.verified,
-        seconds(timing.total),
-        seconds(timing.search),
-        seconds(timing.refinement),
-        seconds(timing.verification)
+        seconds(timing.total)
     )
 }
 
