@@ -50,9 +50,10 @@ fn results_are_the_same_for_any_number_of_threads_and_progress_stays_off_stdout(
 
 /// More commands would be hard to navigate.
 #[test]
-fn there_are_at_most_twelve_commands() {
+fn there_are_at_most_thirteen_commands() {
     let command = pushplan_command::command();
-    assert!(command.get_subcommands().filter(|one| !one.is_hide_set()).count() <= 12);
+    // The script for the shell is a thirteenth, which neither plans nor measures.
+    assert!(command.get_subcommands().filter(|one| !one.is_hide_set()).count() <= 13);
 }
 
 #[test]
@@ -307,6 +308,38 @@ fn files(folder: &Path) -> Vec<String> {
         .collect();
     names.sort();
     names
+}
+
+#[test]
+fn check_reports_faults_to_programs() {
+    let folder = TempDir::new().expect("a folder");
+    let bad = folder.path().join("bad.yaml");
+    let text = std::fs::read_to_string(format!("{ROOT}/tasks/pull-back.yaml")).expect("a task");
+    std::fs::write(&bad, text.replace("mass:", "mas:")).expect("a task");
+    let bad = bad.to_str().expect("UTF-8");
+    let output = run(&["check", "--json", "tasks/pull-back.yaml", bad]);
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    let report: Json = serde_json::from_slice(&output.stdout).expect("JSON");
+    let [good, faulty] = &report["files"].as_array().expect("files")[..] else {
+        panic!("two files")
+    };
+    assert_eq!((&good["kind"], &good["valid"]), (&"task".into(), &true.into()));
+    assert_eq!((&faulty["file"], &faulty["valid"]), (&bad.into(), &false.into()));
+    let fault = &faulty["faults"][0];
+    assert!(fault["line"].as_u64() > Some(1) && fault["column"].as_u64() > Some(1), "{fault}");
+    assert_eq!(fault["message"], "unknown key `mas`");
+    assert_eq!(fault["remedy"], "did you mean `mass`?");
+    let output = run(&["check", "--example", "pull-back"]);
+    assert_eq!(String::from_utf8_lossy(&output.stdout), "pull-back: task, valid\n");
+}
+
+#[test]
+fn help_of_solve_begins_with_its_options_and_completions_are_named() {
+    let help = |arguments: &[&str]| String::from_utf8_lossy(&run(arguments).stdout).into_owned();
+    let solve = help(&["solve", "--help"]);
+    assert!(!solve.contains("pull-back-behind-wall") && solve.contains("`pushplan new --help`"));
+    assert!(help(&["new", "--help"]).contains("pull-back-behind-wall"));
+    assert!(help(&["--help"]).contains("completions"));
 }
 
 #[test]

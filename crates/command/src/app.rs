@@ -41,7 +41,6 @@ enum Command {
     Fit(fit::FitArgs),
     Infer(infer::InferArgs),
     Bench(bench::BenchArgs),
-    #[command(hide = true)]
     Completions(completions::CompletionsArgs),
 }
 
@@ -51,6 +50,7 @@ const GROUPS: Groups = &[
     ("Files", &["check", "import", "export"]),
     ("Learn from recordings", &["fit", "infer"]),
     ("Measure", &["bench"]),
+    ("Shell", &["completions"]),
 ];
 
 /// Runs the command with the given arguments, the program's name first, and returns its exit code.

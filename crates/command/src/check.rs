@@ -6,15 +6,19 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use pushplan::asset::{
-    self, Fault, Faults, Kind, ToolLibrary, recording_schema, task_schema, tool_schema,
-    world_schema,
+    self, Fault, Faults, Kind, ToolLibrary, load_example, load_task, recording_schema, task_schema,
+    tool_schema, world_schema,
 };
 use pushplan::solve::{Effort, Planner};
+use pushplan::task::Task;
 use pushplan_act::act::{ActError, Trace};
+
+use pushplan_report::Document;
+use serde_json::{Value as Json, json};
 
 use super::{
     action::LibraryArgs, error::CliError, exit_code, progress::TerminalProgress, session::Session,
-    solve::solve_error,
+    solve::solve_error, task_argument,
 };
 
 /// Check files and list every error with its location, or print a JSON schema for editors
@@ -22,19 +26,26 @@ use super::{
 #[command(after_help = "Examples:
   pushplan check tools/*.yaml tasks/*.yaml
   pushplan check --why my-task.yaml
+  pushplan check --example pull-back --json
   pushplan check --schema task > task.schema.json
   # then begin the task file with this line:
   # yaml-language-server: $schema=task.schema.json")]
 pub struct CheckArgs {
     /// Tool, task, plan, trajectory, recording, world or run files; the content determines the kind
-    #[arg(required_unless_present = "schema", value_name = "FILE")]
+    #[arg(required_unless_present_any = ["schema", "example"], value_name = "FILE")]
     files: Vec<PathBuf>,
+    #[arg(long, value_name = "NAME", help = task_argument::HELP, conflicts_with = "files",
+          hide_possible_values = true, value_parser = task_argument::example())]
+    example: Option<String>,
     /// Print the JSON schema of this kind of file
-    #[arg(long, value_name = "KIND", conflicts_with = "files")]
+    #[arg(long, value_name = "KIND", conflicts_with_all = ["files", "example", "json"])]
     schema: Option<Schema>,
     /// Also explain why a pushing task has no plan, as `solve` would, but without verifying plans
     #[arg(long, conflicts_with = "schema")]
     why: bool,
+    /// Print JSON instead of text: for each file its kind, and each fault with place and remedy
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     library: LibraryArgs,
 }
@@ -46,6 +57,38 @@ enum Schema {
     Task,
     Recording,
     World,
+}
+
+/// File or shipped task to be checked.
+enum Subject<'a> {
+    File(&'a Path),
+    Example(&'a str),
+}
+
+impl Subject<'_> {
+    fn name(&self) -> String {
+        match self {
+            Self::File(path) => path.display().to_string(),
+            Self::Example(name) => (*name).to_owned(),
+        }
+    }
+
+    /// Reads it and returns its kind, or all its faults.
+    fn check(&self, library: &ToolLibrary) -> Result<Kind, Faults> {
+        let Self::File(path) = self else { return self.task(library).map(|_| Kind::Task) };
+        let kind = asset::check(path, Some(library))?;
+        if kind == Kind::Run {
+            Trace::load(path).map_err(|error| damaged(path, &error))?;
+        }
+        Ok(kind)
+    }
+
+    fn task(&self, library: &ToolLibrary) -> Result<Task, Faults> {
+        match self {
+            Self::File(path) => load_task(path, library),
+            Self::Example(name) => load_example(name, library),
+        }
+    }
 }
 
 fn damaged(file: &Path, error: &ActError) -> Faults {
@@ -65,44 +108,77 @@ pub fn run(args: &CheckArgs, session: &Session) -> Result<u8, CliError> {
         return Ok(exit_code::DONE);
     }
     let library = args.library.load()?;
-    let (mut faults, mut code) = (Vec::new(), exit_code::DONE);
-    for file in &args.files {
-        let read = |kind| match kind {
-            Kind::Run => Trace::load(file).map(|_| kind).map_err(|error| damaged(file, &error)),
-            _ => Ok(kind),
-        };
-        match asset::check(file, Some(&library)).and_then(read) {
+    let (mut files, mut faults, mut code) = (Vec::new(), Vec::new(), exit_code::DONE);
+    let print = |text: String| if args.json { Ok(()) } else { session.print(&text) };
+    let named = args.files.iter().map(|file| Subject::File(file));
+    for subject in named.chain(args.example.as_deref().map(Subject::Example)) {
+        let name = subject.name();
+        match subject.check(&library) {
             Ok(kind) => {
-                session.print(&format!("{}: {kind}, valid\n", file.display()))?;
+                print(format!("{name}: {kind}, valid\n"))?;
+                let mut reason = None;
                 if args.why && kind == Kind::Task {
-                    code = code.max(why(file, &library, session)?);
+                    let (own, words) = why(&subject, &library, session)?;
+                    print(format!("  {words}\n"))?;
+                    (code, reason) = (code.max(own), Some(words));
                 }
+                files.push(row(&name, Some(kind), &[], reason));
             }
-            Err(found) => faults.extend(found.0),
+            Err(found) => {
+                files.push(row(&name, None, &found.0, None));
+                faults.extend(found.0);
+            }
         }
     }
-    if faults.is_empty() { Ok(code) } else { Err(Faults(faults).into()) }
+    match (args.json, faults.is_empty()) {
+        (false, false) => Err(Faults(faults).into()),
+        (false, true) => Ok(code),
+        (true, sound) => {
+            let document = Document { json: json!({ "files": files }), ..Document::default() };
+            session.print(&document.to_json())?;
+            Ok(if sound { code } else { exit_code::INVALID_FILE })
+        }
+    }
 }
 
-/// Prints the reason why a task has no plan, and returns the exit code.
-fn why(file: &Path, library: &ToolLibrary, session: &Session) -> Result<u8, CliError> {
-    let task = asset::load_task(file, library)?;
+/// Returns the JSON object of a checked file.
+fn row(name: &str, kind: Option<Kind>, faults: &[Fault], why: Option<String>) -> Json {
+    let fault = |fault: &Fault| {
+        json!({
+            "file": fault.file,
+            "line": fault.place.map(|place| place.line),
+            "column": fault.place.map(|place| place.column),
+            "message": fault.message,
+            "remedy": fault.advice,
+        })
+    };
+    let faults: Vec<Json> = faults.iter().map(fault).collect();
+    json!({
+        "file": name, "kind": kind.map(|kind| kind.to_string()), "valid": faults.is_empty(),
+        "faults": faults, "why": why,
+    })
+}
+
+/// Returns the exit code and the reason why a task has no plan, or that the search finds one.
+fn why(
+    subject: &Subject,
+    library: &ToolLibrary,
+    session: &Session,
+) -> Result<(u8, String), CliError> {
+    let task = subject.task(library)?;
     if task.levers.is_some() {
-        session.print("  --why does not support levering tasks; use `pushplan solve`\n")?;
-        return Ok(exit_code::DONE);
+        let words = "--why does not support levering tasks; use `pushplan solve`";
+        return Ok((exit_code::DONE, words.to_owned()));
     }
     let planner = Planner::for_effort(Effort::default())?.build();
     let following = TerminalProgress::spinner(session, "searching for a plan");
     let found = session.compute(|| planner.why(&task, library, &following));
     following.finish()?;
-    match found.map_err(solve_error)? {
-        Some(cause) => {
-            session.print(&format!("  no plan: {cause}\n"))?;
-            Ok(exit_code::NO_PLAN)
-        }
+    Ok(match found.map_err(solve_error)? {
+        Some(cause) => (exit_code::NO_PLAN, format!("no plan: {cause}")),
         None => {
-            session.print("  search predicts success; `pushplan solve` verifies the plan\n")?;
-            Ok(exit_code::DONE)
+            let words = "search predicts success; `pushplan solve` verifies the plan";
+            (exit_code::DONE, words.to_owned())
         }
-    }
+    })
 }

@@ -44,7 +44,7 @@ pub struct PredictArgs {
     #[arg(required_unless_present = "example", value_name = "TASK|PLAN|RECORDING")]
     pub files: Vec<PathBuf>,
     #[arg(long, value_name = "NAME", help = task_argument::HELP, conflicts_with = "files",
-          value_parser = task_argument::example())]
+          hide_possible_values = true, value_parser = task_argument::example())]
     example: Option<String>,
     #[command(flatten)]
     action: ActionArgs,

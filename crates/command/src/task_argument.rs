@@ -12,9 +12,9 @@ use pushplan_report::TaskSource;
 use super::error::CliError;
 
 /// Text of `--help` for `--example`.
-pub const HELP: &str = "Shipped task to use instead of a file";
+pub const HELP: &str = "Shipped task to use instead of a file; `pushplan new --help` lists all";
 
-/// Returns a parser of the names of shipped tasks, which help and errors list.
+/// Returns a parser of the names of shipped tasks, which errors and the help of `new` list.
 pub fn example() -> PossibleValuesParser {
     Task::examples().into()
 }
@@ -25,7 +25,8 @@ pub fn example() -> PossibleValuesParser {
 pub struct TaskArgs {
     /// Task file
     task: Option<PathBuf>,
-    #[arg(long, value_name = "NAME", help = HELP, value_parser = example())]
+    #[arg(long, value_name = "NAME", help = HELP, hide_possible_values = true,
+          value_parser = example())]
     example: Option<String>,
 }
 
