@@ -215,6 +215,13 @@ pub(super) fn moved_by(task: &Task, ranked: &RankedPlan) -> Vec<StepMoves> {
     moves(task, &ranked.plan, Some(&ranked.predicted), ranked.verdict.as_ref())
 }
 
+/// Returns the objects that each step of a ranked plan moves as predicted, or as replayed if the
+/// prediction records only the end. A stored solution keeps the prediction but no replays.
+fn predicted_moves(task: &Task, ranked: &RankedPlan) -> Vec<StepMoves> {
+    let predicted = moves(task, &ranked.plan, Some(&ranked.predicted), None);
+    if predicted.is_empty() { moved_by(task, ranked) } else { predicted }
+}
+
 fn json(task: &Task, solution: &Solution) -> Json {
     let plans: Vec<Json> = solution
         .plans
@@ -222,7 +229,7 @@ fn json(task: &Task, solution: &Solution) -> Json {
         .map(|ranked| {
             json!({
                 "plan": ranked.plan,
-                "moves": moved_by(task, ranked),
+                "moves": predicted_moves(task, ranked),
                 "predicted": ranked.outcome,
                 "verdict": ranked.verdict,
                 "refinement": ranked.refinement,
