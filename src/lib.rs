@@ -92,6 +92,8 @@ pub mod checksum;
 #[doc(hidden)]
 pub mod contact;
 #[doc(hidden)]
+pub mod decimals;
+#[doc(hidden)]
 pub mod effect;
 #[doc(hidden)]
 pub mod geometry;

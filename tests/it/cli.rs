@@ -50,10 +50,9 @@ fn results_are_the_same_for_any_number_of_threads_and_progress_stays_off_stdout(
 
 /// More commands would be hard to navigate.
 #[test]
-fn there_are_at_most_thirteen_commands() {
+fn there_are_at_most_twelve_commands() {
     let command = pushplan_command::command();
-    // The script for the shell is a thirteenth, which neither plans nor measures.
-    assert!(command.get_subcommands().filter(|one| !one.is_hide_set()).count() <= 13);
+    assert!(command.get_subcommands().filter(|one| !one.is_hide_set()).count() <= 12);
 }
 
 #[test]

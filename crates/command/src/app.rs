@@ -19,7 +19,7 @@ use super::{
 /// Chooses a tool and pushes that bring objects on a table to goals, and shows that the plan
 /// works.
 #[derive(Debug, Parser)]
-#[command(name = "pushplan", version, max_term_width = 100, after_help = exit_code::HELP)]
+#[command(name = "pushplan", version, max_term_width = 100, after_help = after_help())]
 pub struct Cli {
     #[command(flatten)]
     global: GlobalArgs,
@@ -41,7 +41,14 @@ enum Command {
     Fit(fit::FitArgs),
     Infer(infer::InferArgs),
     Bench(bench::BenchArgs),
+    #[command(hide = true)]
     Completions(completions::CompletionsArgs),
+}
+
+/// Returns the end of `--help`, which also names the script for shells.
+fn after_help() -> String {
+    let shells = "`pushplan completions SHELL` prints a completion script for a shell.";
+    format!("{shells}\n\n{}", exit_code::HELP)
 }
 
 /// Groups of commands, in the order of `--help`.
@@ -50,7 +57,6 @@ const GROUPS: Groups = &[
     ("Files", &["check", "import", "export"]),
     ("Learn from recordings", &["fit", "infer"]),
     ("Measure", &["bench"]),
-    ("Shell", &["completions"]),
 ];
 
 /// Runs the command with the given arguments, the program's name first, and returns its exit code.

@@ -1,6 +1,6 @@
 //! Quantities with units, formatted concisely.
 
-use pushplan::geometry::fixed;
+use pushplan::decimals::fixed;
 
 /// Formats a length given in metres, in millimetres.
 pub fn millimetres(metres: f64) -> String {

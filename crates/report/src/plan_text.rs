@@ -1,6 +1,7 @@
 //! Plans and their outcomes as sentences and tables for the terminal.
 
-use pushplan::geometry::{Vector, fixed, wrap_angle};
+use pushplan::decimals::fixed;
+use pushplan::geometry::{Vector, wrap_angle};
 use pushplan::{
     outcome::{MovedObject, Outcome, StepMoves, Trajectory, Verdict, Warning, step_moves},
     scene::Engine,
@@ -52,8 +53,9 @@ fn row_line(row: &[Step]) -> String {
     }
 }
 
-/// Returns the objects that each step moves, from the nominal 3-D replay, otherwise from the 2-D
-/// replay or the prediction; empty if none of them recorded every step.
+/// Returns the objects that each step moves as predicted, otherwise as in the nominal 3-D or 2-D
+/// replay; empty if none of them recorded every step. A stored solution keeps no replays, so text,
+/// page and JSON agree only on the prediction.
 pub(super) fn moves(
     task: &Task,
     plan: &Plan,
@@ -62,7 +64,8 @@ pub(super) fn moves(
 ) -> Vec<StepMoves> {
     let nominal = |engine| verdict?.nominal(engine)?.trajectory.as_ref();
     let replayed = Engine::ALL.into_iter().rev().filter_map(nominal);
-    let found = replayed.chain(predicted).map(|one| step_moves(task, plan.steps.len(), one));
+    let found =
+        predicted.into_iter().chain(replayed).map(|one| step_moves(task, plan.steps.len(), one));
     let mut moves = found.into_iter().find(|moves| !moves.is_empty()).unwrap_or_default();
     for (step, moved) in plan.steps.iter().zip(&mut moves) {
         // A raised plate may end where it began.
@@ -340,6 +343,7 @@ mod tests {
            1  (0.420, 0.000) m          -176.7°  200 mm  0.10 m/s
         ");
     }
+
     #[test]
     fn every_step_names_what_it_moves() {
         let push = Push { start: Vector::new(0.42, 0.0), direction: 0.0, length: 0.2, speed: 0.1 };

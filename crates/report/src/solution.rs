@@ -131,17 +131,25 @@ fn refusals(solution: &Solution) -> Option<Section> {
 /// Largest number of rows on other plans.
 const OTHERS: usize = 7;
 
+/// Returns the distinct lines in the order of their first occurrence, with their numbers.
+fn counted(lines: impl Iterator<Item = [String; 2]>) -> Vec<([String; 2], usize)> {
+    let mut distinct: Vec<([String; 2], usize)> = Vec::new();
+    for line in lines {
+        match distinct.iter_mut().find(|(known, _)| *known == line) {
+            Some((_, count)) => *count += 1,
+            None => distinct.push((line, 1)),
+        }
+    }
+    distinct
+}
+
 /// Returns a section on the other verified plans; plans with equal descriptions share a row.
 fn alternatives(task: &Task, solution: &Solution) -> Option<Section> {
     let verified = solution.plans.iter().skip(1).filter(|plan| plan.verdict.is_some());
-    let mut others: Vec<([String; 2], usize)> = Vec::new();
-    for ranked in verified {
-        let line = [plan_line(&ranked.plan), verdict_line(task, ranked.verdict.as_ref())];
-        match others.iter_mut().find(|(known, _)| *known == line) {
-            Some((_, count)) => *count += 1,
-            None => others.push((line, 1)),
-        }
-    }
+    let mut others = counted(
+        verified
+            .map(|ranked| [plan_line(&ranked.plan), verdict_line(task, ranked.verdict.as_ref())]),
+    );
     others.truncate(OTHERS);
     let plan = |plan: &str, count: usize| match count {
         1 => plan.to_owned(),
@@ -215,13 +223,6 @@ pub(super) fn moved_by(task: &Task, ranked: &RankedPlan) -> Vec<StepMoves> {
     moves(task, &ranked.plan, Some(&ranked.predicted), ranked.verdict.as_ref())
 }
 
-/// Returns the objects that each step of a ranked plan moves as predicted, or as replayed if the
-/// prediction records only the end. A stored solution keeps the prediction but no replays.
-fn predicted_moves(task: &Task, ranked: &RankedPlan) -> Vec<StepMoves> {
-    let predicted = moves(task, &ranked.plan, Some(&ranked.predicted), None);
-    if predicted.is_empty() { moved_by(task, ranked) } else { predicted }
-}
-
 fn json(task: &Task, solution: &Solution) -> Json {
     let plans: Vec<Json> = solution
         .plans
@@ -229,7 +230,7 @@ fn json(task: &Task, solution: &Solution) -> Json {
         .map(|ranked| {
             json!({
                 "plan": ranked.plan,
-                "moves": predicted_moves(task, ranked),
+                "moves": moved_by(task, ranked),
                 "predicted": ranked.outcome,
                 "verdict": ranked.verdict,
                 "refinement": ranked.refinement,
@@ -258,4 +259,16 @@ fn json(task: &Task, solution: &Solution) -> Json {
         "statistics": solution.statistics,
         "warnings": solution.warnings,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_lines_are_counted_in_the_order_of_their_first_occurrence() {
+        let line = |plan: &str| [plan.to_owned(), "works".to_owned()];
+        let lines = ["a", "b", "a", "a"].map(line).into_iter();
+        assert_eq!(counted(lines), [(line("a"), 3), (line("b"), 1)]);
+    }
 }

@@ -1,6 +1,7 @@
 //! Quantities in words.
 
-use crate::geometry::{Vector, fixed};
+use crate::decimals::fixed;
+use crate::geometry::Vector;
 
 /// Formats a length given in metres.
 pub(super) fn millimetres(metres: f64) -> String {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use pushplan::geometry::fixed;
+use pushplan::decimals::fixed;
 use pushplan::plan::{Infeasible, ScoredPush, Start, bare, is_behind};
 use pushplan::solve::Solution;
 

@@ -1,7 +1,8 @@
 //! Mapping from the table to the page: bounds, scale, grid and scale bar.
 
 use crate::svg::{Anchor, Font, Style, Svg};
-use pushplan::geometry::{Footprint, Pose, Vector, fixed};
+use pushplan::decimals::fixed;
+use pushplan::geometry::{Footprint, Pose, Vector};
 
 use super::palette;
 
