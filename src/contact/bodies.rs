@@ -3,15 +3,16 @@
 use std::sync::Arc;
 
 use crate::{
-    geometry::{ContactPoint, Footprint, Placed, Pose, Rim, Turn, Vector},
+    geometry::{AreaMoments, ContactPoint, Footprint, Placed, Pose, Rim, Turn, Vector, clearance},
     scene::{
-        Body, Feet, GRAVITY, JointKind, PairFriction, Physics, RigidGroups, Scene, Separation,
+        Body, Feet, GRAVITY, JOIN_GAP, JointKind, PairFriction, Physics, RigidGroups, Scene, Separation,
         Span, Surface, Tool, face_height, pair_friction,
     },
 };
 
 use super::{
     fall::Fall,
+    fixed_joints::propagate,
     index::{GroupIndex, SceneIndex},
     pairs::{PairId, Pairs},
 };
@@ -78,6 +79,9 @@ pub struct PrescribedBody {
     pub friction: f64,
     /// Range of heights above the table, metres.
     pub span: (f64, f64),
+    /// Area moments of the rigid body that contains it, propagated over fixed joints; in the tool
+    /// frame or in the world.
+    pub body: AreaMoments,
 }
 
 /// A joint between two objects.
@@ -168,8 +172,6 @@ pub struct Bodies {
     pub objects: Vec<Movable>,
     /// Pieces of the tool's outline.
     pub parts: Vec<PrescribedBody>,
-    /// Footprints of all outline pieces, with their poses in the tool frame, listed or not.
-    pub outline: Arc<[(Footprint, Pose)]>,
     /// Exposed boundary of every outline piece.
     pub rims: Arc<[Option<Rim>]>,
     /// Obstacles.
@@ -192,6 +194,26 @@ pub struct Bodies {
     pub pairs: Pairs,
     /// Friction of pairs for which it is not the mean of the two values, in the scene's numbering.
     pub frictions: Arc<[PairFriction]>,
+}
+
+/// Returns the area moments of every obstacle after propagation over obstacles that touch it, which
+/// are fixed to each other like to the world.
+fn joined_obstacles(scene: &Scene) -> Vec<AreaMoments> {
+    let placed: Vec<(Footprint, Pose)> =
+        scene.obstacles.iter().map(|one| (one.shape().footprint(), one.pose)).collect();
+    let own: Vec<AreaMoments> =
+        placed.iter().map(|(footprint, pose)| AreaMoments::of(footprint, pose)).collect();
+    let level = |a: usize, b: usize| {
+        let [a, b] = [a, b].map(|k| &scene.obstacles[k]);
+        a.z < b.top() && b.z < a.top()
+    };
+    let touch = |a: usize, b: usize| {
+        let [a, b] = [a, b].map(|k| (&placed[k].0, &placed[k].1));
+        clearance(a, b, 2.0 * JOIN_GAP) <= JOIN_GAP
+    };
+    let pairs = (0..placed.len()).flat_map(|b| (0..b).map(move |a| [a, b]));
+    let joints: Vec<[usize; 2]> = pairs.filter(|&[a, b]| level(a, b) && touch(a, b)).collect();
+    propagate(&own, &joints)
 }
 
 /// The other body of a contact, by its index in the bodies at hand.
@@ -266,6 +288,10 @@ impl Bodies {
                 }
             })
             .collect();
+        let own = tool.parts().iter().map(|part| AreaMoments::of(&part.footprint(), &part.pose));
+        // All parts of a tool are one body and hold the same state.
+        let body = propagate(&own.collect::<Vec<_>>(), tool.joints());
+        let body = body.first().copied().unwrap_or_default();
         let parts = tool
             .outline()
             .iter()
@@ -277,15 +303,17 @@ impl Bodies {
                 turn: piece.pose.turn(),
                 friction: tool.friction,
                 span: (lift, lift + piece.shape.height()),
+                body,
             })
             .collect();
-        let outline = tool.outline().iter().map(|piece| (piece.footprint(), piece.pose)).collect();
         let rims = tool.outline().iter().map(|piece| piece.rim.clone()).collect();
+        let rigid = joined_obstacles(scene);
         let obstacles = scene
             .obstacles
             .iter()
             .enumerate()
             .map(|(index, obstacle)| PrescribedBody {
+                body: rigid[index],
                 index,
                 footprint: obstacle.shape().footprint(),
                 pose: obstacle.pose,
@@ -328,7 +356,6 @@ impl Bodies {
         Self {
             objects,
             parts,
-            outline,
             rims,
             obstacles,
             joints,

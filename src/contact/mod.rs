@@ -16,6 +16,7 @@ mod contact_side;
 mod eliminated;
 mod elimination;
 mod fall;
+mod fixed_joints;
 mod forces;
 mod frame;
 mod free_sliding;

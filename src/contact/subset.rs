@@ -88,7 +88,6 @@ impl<Outer: Index, Own: Index> Subset<Outer, Own> {
         bodies.objects.extend(objects.iter().map(|k| whole.objects[k.place()]));
         bodies.parts.clear();
         bodies.parts.extend(parts.iter().map(|&k| whole.parts[k]));
-        bodies.outline = Arc::clone(&whole.outline);
         bodies.rims = Arc::clone(&whole.rims);
         bodies.feet = Arc::clone(&whole.feet);
         bodies.supports_known = whole.supports_known;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::{
-    graph::{Batch, Correction},
+    graph::Corrections,
     network::{Buffers, Forward, Head, PredictorWeights},
     outcome::{Record, Spread, Trajectory, Warning},
     rollout::{PairMeans, RollSettings, Roller, reachable},
@@ -150,18 +150,16 @@ impl Network {
     /// each pair.
     ///
     /// These are the effects of Li et al., ICRA 2019, eq. 3, in the last propagation step. The rows
-    /// contain their even half, summed over both directions and averaged over frames.
+    /// contain their even half, summed over both directions and averaged over the frames read.
     pub fn effects(&self, scene: &Scene, job: &Job, pairs: &[[usize; 2]]) -> Vec<Vec<f32>> {
         let job = if has_guesses(job) { &without_guesses(job) } else { job };
         let mut means = PairMeans::new(scene, job, self.effect_width());
-        let mut buffers = Buffers::default();
         let settings = RollSettings { corrected: usize::MAX, ..self.settings };
-        let mut correct = |batch: &Batch, corrections: &mut Vec<Correction>| {
-            self.forward.run(batch, &mut buffers, corrections);
-            means.add(batch, |k, row| self.forward.add_effect(batch, &buffers, k, row));
-        };
         let mut roller = Roller::new(self.spec.clone(), settings);
-        roller.roll(scene, std::slice::from_ref(job), Record::Outcome, Some(&mut correct));
+        let (_, batch) = roller.read(scene, std::slice::from_ref(job), Record::Outcome);
+        let mut buffers = Buffers::default();
+        self.forward.run(batch, &mut buffers, &mut Corrections::default());
+        means.add(batch, batch.graphs, |k, row| self.forward.add_effect(batch, &buffers, k, row));
         pairs.iter().map(|pair| means.mean(*pair)).collect()
     }
 }

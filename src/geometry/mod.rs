@@ -4,6 +4,7 @@
 //! This module is independent of tools, tasks and physics; the vertical extent of a body is only a
 //! height.
 
+mod area_moments;
 mod cast;
 mod clearance;
 mod contact;
@@ -24,6 +25,7 @@ mod sunk;
 mod support_edge;
 mod vector;
 
+pub use area_moments::AreaMoments;
 pub use cast::travel_to_contact;
 pub use clearance::{clearance, swept_clearance};
 pub use pushplan_kernel::{Follows, Turn};

@@ -47,6 +47,8 @@ pub struct Batch {
     /// Body pair of every relation, `[R]`. Its id is constant over the frames of a scene with a
     /// tool, and equal for both directions.
     pub pairs: Vec<PairId>,
+    /// Number of graphs.
+    pub graphs: usize,
     /// Scratch memory for the relations of one graph.
     pub(super) relations: Vec<Relation>,
     /// Rows of the tool and of the obstacles of one graph, where already added.
@@ -66,6 +68,7 @@ impl Batch {
         self.receivers.clear();
         self.senders.clear();
         self.pairs.clear();
+        self.graphs = 0;
     }
 
     /// Returns the number of nodes, N.

@@ -54,15 +54,20 @@ impl Batch {
             let receiver = before + relation.receiver;
             let sender = match relation.sender {
                 Partner::Object(k) => (before + k) as u32,
-                Partner::Part(_) => self.given(0, frame, PrescribedNode::tool),
+                Partner::Part(k) => {
+                    let part = &frame.bodies.parts[k];
+                    self.given(0, frame, |frame| PrescribedNode::part(frame, part))
+                }
                 Partner::Obstacle(k) => {
-                    self.given(1 + k, frame, |frame| PrescribedNode::obstacle(frame, k))
+                    let obstacle = &frame.bodies.obstacles[k];
+                    self.given(1 + k, frame, |frame| PrescribedNode::obstacle(frame, obstacle))
                 }
             };
             let (even, odd) = relation_features(&self.nodes[receiver], relation);
             self.push_relation(receiver as u32, sender, relation.pair, even, odd);
         }
         self.relations = relations;
+        self.graphs += usize::from(self.node_count() > before);
         self.node_count() - before
     }
 

@@ -29,17 +29,20 @@ pub const NODE_EVEN: usize = 20;
 /// Odd features of a node.
 pub const NODE_ODD: usize = 11;
 /// Even features of a body with prescribed motion.
-pub const GIVEN_EVEN: usize = 5;
+pub const GIVEN_EVEN: usize = 6;
 /// Odd features of a body with prescribed motion.
-pub const GIVEN_ODD: usize = 2;
+pub const GIVEN_ODD: usize = 3;
 /// Even features of a relation.
 pub const RELATION_EVEN: usize = 26;
 /// Odd features of a relation.
 pub const RELATION_ODD: usize = 12;
-/// Even outputs of a node: displacement x, velocity x.
-pub const OUTPUT_EVEN: usize = 2;
-/// Odd outputs of a node: displacement y, rotation, velocity y, angular velocity.
-pub const OUTPUT_ODD: usize = 4;
+/// Number of readouts, one for each engine that states no height of contact: the 3-D engine and
+/// MuJoCo.
+pub const READOUTS: usize = 2;
+/// Even outputs of a node: displacement x of every readout.
+pub const OUTPUT_EVEN: usize = READOUTS;
+/// Odd outputs of a node: displacement y and rotation of every readout.
+pub const OUTPUT_ODD: usize = 2 * READOUTS;
 
 /// Unit of heights, metres.
 const HEIGHT: f64 = 0.1;
@@ -103,16 +106,22 @@ pub(super) fn given_features(
     given: &PrescribedNode,
     axis: Vector,
 ) -> ([f64; GIVEN_EVEN], [f64; GIVEN_ODD]) {
-    let PrescribedNode { tool, half: [along, across], shift, turn, .. } = *given;
+    let PrescribedNode { tool, area, spread: [along, mixed, across], shift, turn } = *given;
+    let deviation = |square: f64| (square.sqrt() / BODY).ln_1p();
     (
         [
             flag(tool),
             flag(!tool),
-            (along / BODY).ln_1p(),
-            (across / BODY).ln_1p(),
+            deviation(area),
+            deviation(along),
+            deviation(across),
             axis.dot(&shift) / UNIT,
         ],
-        [cross(axis, shift) / UNIT, turn * along.max(across) / UNIT],
+        [
+            cross(axis, shift) / UNIT,
+            turn * (along + across).sqrt() / UNIT,
+            mixed / (along * across).sqrt(),
+        ],
     )
 }
 

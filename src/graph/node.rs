@@ -3,9 +3,10 @@
 use crate::{
     contact::{ListIndex, Motion},
     geometry::Vector,
-    outcome::Spread,
     scene::FRAME_TRAVEL,
 };
+
+use super::features::READOUTS;
 
 /// Unit of displacements and gaps, metres: one frame of tool travel.
 pub const UNIT: f64 = FRAME_TRAVEL;
@@ -28,20 +29,34 @@ pub struct Node {
     pub prior: [f64; 6],
 }
 
-/// A network's correction of a node's analytic motion, with its expected error.
+/// A network's correction of a node's motion, relative to the length of that motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Correction {
-    /// Change added to [`Node::prior`], output units.
-    pub output: [f64; 6],
-    /// Contribution of this frame to the expected final error of position and heading, output
-    /// units. `None` for a network that does not estimate errors.
+    /// Change of the displacements along and across the tool's motion, and of the rotation at the
+    /// support's length c, of every readout. A change of 1 is as long as the motion itself, see
+    /// [`Node::length`].
+    pub readouts: [[f64; 3]; READOUTS],
+    /// Expected errors of position and of heading (at the support's length). `None` for a network
+    /// that does not estimate errors.
     pub doubt: Option<[f64; 2]>,
 }
 
+/// Corrections of the nodes of a batch.
+#[derive(Clone, Debug, Default)]
+pub struct Corrections {
+    /// Correction of every node, `[N]`.
+    pub nodes: Vec<Correction>,
+    /// Share of the distance between readouts that counts as expected error of position and of
+    /// heading.
+    pub apart: [f64; 2],
+}
+
 impl Node {
-    /// Converts an expected error of position and heading from output units to metres and radians.
-    pub fn decode_doubt(&self, [position, heading]: [f64; 2]) -> Spread {
-        Spread { position: position * UNIT, heading: heading * UNIT / self.support }
+    /// Returns the length of the node's analytic motion in the frame, metres: displacement of the
+    /// centre, and rotation at the support's length.
+    pub fn length(&self) -> f64 {
+        let [x, _, y, turn, ..] = self.prior;
+        UNIT * (x.hypot(y) + turn.abs())
     }
 
     /// Converts a motion into output units and this node's axes: lengths over `UNIT`, velocities
@@ -58,18 +73,5 @@ impl Node {
             across(motion.velocity) * self.duration,
             motion.spin * self.duration * self.support / UNIT,
         ]
-    }
-
-    /// Converts six output numbers into a motion.
-    pub fn decode(&self, output: &[f64; 6]) -> Motion {
-        let world = |x: f64, y: f64| {
-            Vector::new(self.axis.x * x - self.axis.y * y, self.axis.y * x + self.axis.x * y) * UNIT
-        };
-        Motion {
-            shift: world(output[0], output[2]),
-            turn: output[3] * UNIT / self.support,
-            velocity: world(output[1], output[4]) / self.duration,
-            spin: output[5] * UNIT / (self.support * self.duration),
-        }
     }
 }

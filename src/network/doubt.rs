@@ -1,10 +1,10 @@
 //! The network's estimate of its own error: contributions of single frames to the final error.
 //!
-//! Errors of single frames hardly predict the error of a whole push, because most of them cancel.
-//! The spread is therefore learned from final errors: the spread of an object is a floor plus a
-//! positive number for each of its frames, S = s + sum over t of exp(w x_t + b). Here x_t is the
-//! even half of the hidden row from which corrections are read. The fit maximises the likelihood of
-//! errors of whole pushes that are exponentially distributed around S.
+//! The spread is learned from final errors. The spread of an object is a floor, a positive number
+//! for each of its frames, and a share of the distance d between the readouts of two engines from
+//! their mean: S = s + sum over t of length_t exp(w x_t + b) + a d. Here x_t is the even half of the
+//! hidden row from which corrections are read. The fit maximises the likelihood of errors of whole
+//! pushes that are exponentially distributed around S.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,22 +12,24 @@ use crate::outcome::Spread;
 
 use super::weights::WeightsError;
 
-/// Maximum exponent of a frame: e^4 output units are half a metre.
-const LARGEST: f32 = 4.0;
+/// Maximum exponent of a frame: an error as long as the motion.
+const LARGEST: f32 = 0.0;
 
 /// Error estimator on hidden rows: for positions, and for headings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Doubt {
-    /// Weights w, `[h]` each, to logarithms of output units.
+    /// Weights w, `[h]` each, to logarithms of errors relative to the length of the motion.
     pub weights: [Vec<f32>; 2],
     /// Biases b.
     pub bias: [f32; 2],
     /// Floors s of a moved object: metres, radians.
     pub floor: [f32; 2],
+    /// Shares a of the distance between readouts.
+    pub apart: [f32; 2],
 }
 
 impl Doubt {
-    /// Returns the contribution of a frame with this hidden row.
+    /// Returns the contribution of a frame with this hidden row, relative to its length.
     pub fn of_frame(&self, row: &[f32]) -> [f64; 2] {
         [0, 1].map(|k| {
             let exponent = dot(&self.weights[k], row) + self.bias[k];
@@ -44,7 +46,8 @@ impl Doubt {
     /// Checks that the estimator fits a network of half width `half` and that its numbers are
     /// sound.
     pub(super) fn check(&self, half: usize) -> Result<(), WeightsError> {
-        let numbers = self.weights.iter().flatten().chain(&self.bias).chain(&self.floor);
+        let numbers = self.weights.iter().flatten().chain(&self.bias);
+        let numbers = numbers.chain(&self.floor).chain(&self.apart);
         let sound = |value: &&f32| !(-1e3..=1e3).contains(*value);
         let value = match numbers.clone().find(sound) {
             Some(value) => f64::from(*value),

@@ -5,7 +5,7 @@
 //! into the first layers. Rows are stored [2, M, h], parity first, so every half is one dense
 //! matrix.
 
-use crate::graph::{Batch, Correction, GIVEN, OUTPUT_EVEN, OUTPUT_ODD};
+use crate::graph::{Batch, Correction, Corrections, GIVEN, OUTPUT_EVEN, OUTPUT_ODD};
 
 use super::{
     Config, Doubt, Head, Normaliser, Parameters, PredictorWeights, Rows, Statistics,
@@ -183,23 +183,24 @@ impl Forward {
         2 * (per_relation * relations + per_given * given + per_node * nodes) as u64
     }
 
-    /// Clears `corrections` and fills it with the correction of every node, `[N]`.
-    pub fn run(&self, batch: &Batch, w: &mut Buffers, corrections: &mut Vec<Correction>) {
-        corrections.clear();
+    /// Fills `corrections` with the correction of every node, `[N]`.
+    pub fn run(&self, batch: &Batch, w: &mut Buffers, corrections: &mut Corrections) {
+        let Corrections { nodes, apart } = corrections;
+        nodes.clear();
         let (even, odd) = self.read(batch, w);
-        corrections.extend(even.chunks_exact(OUTPUT_EVEN).zip(odd.chunks_exact(OUTPUT_ODD)).map(
-            |(e, o)| {
-                let output = [e[0], e[1], o[0], o[1], o[2], o[3]].map(f64::from);
-                Correction { output, doubt: None }
-            },
-        ));
+        let rows = even.chunks_exact(OUTPUT_EVEN).zip(odd.chunks_exact(OUTPUT_ODD));
+        nodes.extend(rows.map(|(even, odd)| Correction {
+            readouts: std::array::from_fn(|k| bounded([even[k], odd[2 * k], odd[2 * k + 1]])),
+            doubt: None,
+        }));
         if let Some(head) = &self.head {
-            head.add(&w.next, corrections);
+            head.add(&w.next, nodes);
         }
         if let Some(doubt) = &self.doubt {
+            *apart = doubt.apart.map(f64::from);
             // The even half of the rows, [N, h].
             let rows = w.hidden().chunks_exact(self.half);
-            for (correction, row) in corrections.iter_mut().zip(rows) {
+            for (correction, row) in nodes.iter_mut().zip(rows) {
                 correction.doubt = Some(doubt.of_frame(row));
             }
         }
@@ -293,6 +294,17 @@ impl Forward {
         }
         k
     }
+}
+
+/// Largest change of a motion, relative to its length.
+pub const MOST_CHANGE: f64 = 0.5;
+
+/// Returns a readout with displacement and rotation below [`MOST_CHANGE`], v / sqrt(1 + (v / m)^2).
+fn bounded(readout: [f32; 3]) -> [f64; 3] {
+    let [x, y, turn] = readout.map(f64::from);
+    let share = |square: f64| (1.0 + square / (MOST_CHANGE * MOST_CHANGE)).sqrt().recip();
+    let shift = share(x * x + y * y);
+    [x * shift, y * shift, turn * share(turn * turn)]
 }
 
 /// Returns `true` if the sender of any relation is an object, not a body with prescribed motion.

@@ -6,11 +6,8 @@ use crate::graph::Correction;
 const PARITIES: usize = 2;
 
 /// Number of outputs that a head changes, in this order: displacements along and across the tool's
-/// motion, and the rotation. Recorded poses do not determine velocities.
+/// motion, and the rotation.
 pub const HEAD_OUTPUTS: usize = 3;
-
-/// Indices of these outputs among a node's outputs, see [`crate::graph::Node::encode`].
-const PLACES: [usize; HEAD_OUTPUTS] = [0, 2, 3];
 
 /// Numbers added to the last layer, which maps the hidden row of a node to the correction of its
 /// motion.
@@ -71,9 +68,10 @@ impl Head {
         };
         for ((even, odd), correction) in rows.zip(corrections) {
             let outputs = self.values.chunks_exact(PARITIES * self.half);
-            for (values, place) in outputs.zip(PLACES) {
+            for (k, values) in outputs.enumerate() {
                 let (of_even, of_odd) = values.split_at(self.half);
-                correction.output[place] += dot(of_even, even) + dot(of_odd, odd);
+                let change = dot(of_even, even) + dot(of_odd, odd);
+                correction.readouts.iter_mut().for_each(|readout| readout[k] += change);
             }
         }
     }
@@ -82,16 +80,17 @@ impl Head {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::graph::READOUTS;
 
     #[test]
     fn every_output_reads_both_halves_of_its_own_row() {
         // h = 1, two nodes: rows (2, 3) and (5, 7).
         let head = Head::new(vec![1.0, 10.0, 0.0, 1.0, 1.0, 0.0], 1).expect("six numbers");
-        let one = Correction { output: [1.0; 6], doubt: None };
+        let one = Correction { readouts: [[1.0; 3]; READOUTS], doubt: None };
         let mut corrections = [one; 2];
         head.add(&[2.0, 5.0, 3.0, 7.0], &mut corrections);
-        assert_eq!(corrections[0].output, [33.0, 1.0, 4.0, 3.0, 1.0, 1.0]);
-        assert_eq!(corrections[1].output, [76.0, 1.0, 8.0, 6.0, 1.0, 1.0]);
+        assert_eq!(corrections[0].readouts, [[33.0, 4.0, 3.0]; READOUTS]);
+        assert_eq!(corrections[1].readouts, [[76.0, 8.0, 6.0]; READOUTS]);
         assert!(Head::new(vec![0.0; 5], 1).is_none() && head.scaled(0.0).is_none());
     }
 }

@@ -23,7 +23,7 @@ mod weights;
 
 pub use config::Config;
 pub use doubt::Doubt;
-pub use forward::{Buffers, Forward};
+pub use forward::{Buffers, Forward, MOST_CHANGE};
 pub use head::{HEAD_OUTPUTS, Head};
 pub use lever::{
     LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverOutput, LeverSizes, LeverWeights,

@@ -68,7 +68,7 @@ pub struct PredictorCard {
 
 impl Card for PredictorCard {
     const KEY: &'static str = "pushplan";
-    const FORMAT: u32 = 5;
+    const FORMAT: u32 = 6;
 
     fn check(&self) -> Result<(), WeightsError> {
         check_config(self.config)?;

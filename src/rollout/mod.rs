@@ -1,10 +1,10 @@
-//! The single loop over time: graph, network, integration, new contacts.
+//! The single loop over time: contacts, integration, graphs for the network.
 //!
-//! Training (single frames of episodes) and planning (whole motions) share this loop: [`Stepper`]
-//! advances both, many side by side. It only processes bodies that a motion can reach, from the
-//! first contact until rest. The caller chooses the motions, and the network that corrects the
-//! analytic model.
+//! Training and planning share this loop, which rolls out many motions side by side. It only
+//! processes bodies that a motion can reach, from the first contact until rest. The caller chooses
+//! the motions, and the network that corrects the analytic model.
 
+mod correction;
 mod doubt;
 mod integrate;
 mod pair_means;
@@ -16,6 +16,7 @@ mod settings;
 mod stepper;
 mod work;
 
+pub use correction::{Read, Reading};
 pub use integrate::integrate;
 pub use pair_means::PairMeans;
 pub use reach::reachable;

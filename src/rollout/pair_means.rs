@@ -26,10 +26,10 @@ impl PairMeans {
         Self { pairs, width, sums: BTreeMap::new(), frames: 0 }
     }
 
-    /// Adds a frame. `row(k, into)` must add the row of relation `k` to `into`. Both directions of
-    /// a pair, and all its contact points, are summed.
-    pub fn add(&mut self, batch: &Batch, row: impl Fn(usize, &mut [f32])) {
-        self.frames += 1;
+    /// Adds the `frames` of a rollout. `row(k, into)` must add the row of relation `k` to `into`.
+    /// Both directions of a pair, and all its contact points, are summed.
+    pub fn add(&mut self, batch: &Batch, frames: usize, row: impl Fn(usize, &mut [f32])) {
+        self.frames += frames;
         for (k, pair) in batch.pairs.iter().enumerate() {
             let (first, Body::Object(second)) = self.pairs.bodies(*pair) else { continue };
             let sum = self.sums.entry([first.0, second]).or_insert_with(|| vec![0.0; self.width]);

@@ -4,12 +4,14 @@ use std::sync::Arc;
 
 use crate::{
     contact::{Bodies, SolverStats},
+    graph::{Batch, Corrections},
     outcome::{Record, Trajectory},
     scene::{ModelSpec, Scene},
     task::Job,
 };
 
 use super::{
+    correction::Reading,
     run::{Memory, Run},
     settings::RollSettings,
     stepper::{Corrector, Stepper},
@@ -33,7 +35,7 @@ impl Roller {
             by,
             settings,
             memories: Vec::new(),
-            stepper: Stepper::correcting(settings.corrected),
+            stepper: Stepper::reading(settings.corrected),
             work: Work::default(),
         }
     }
@@ -50,29 +52,64 @@ impl Roller {
 
     /// Rolls out every job until all objects rest.
     ///
-    /// Jobs do not influence each other; they only share the network's batches. Without `correct`
-    /// the analytic model is rolled out and no graphs are built.
+    /// Jobs do not influence each other; they only share the network's batch, which contains the
+    /// graphs of all frames. Without `correct` the analytic model is rolled out and no graphs are
+    /// built.
     pub fn roll(
         &mut self,
         scene: &Scene,
         jobs: &[Job],
         record: Record,
-        mut correct: Option<&mut Corrector<'_>>,
+        correct: Option<&mut Corrector<'_>>,
     ) -> Vec<Trajectory> {
-        let Self { by, settings, memories, stepper, work } = self;
         let (casts, cast) = casts(scene, jobs);
+        let bodies: Vec<&Bodies> = cast.iter().map(|&cast| &casts[cast]).collect();
+        let readings = self.run(scene, jobs, &bodies, record, correct.is_some());
+        let Some(correct) = correct else {
+            return readings.into_iter().map(|reading| reading.trajectory).collect();
+        };
+        let mut corrections = Corrections::default();
+        correct(self.stepper.batch(), &mut corrections);
+        let pairs = readings.into_iter().zip(bodies);
+        pairs.map(|(reading, bodies)| reading.corrected(bodies, &corrections)).collect()
+    }
+
+    /// Rolls out every job by the analytic model, and returns the motions that the network corrects
+    /// with the graphs that it reads.
+    pub fn read(
+        &mut self,
+        scene: &Scene,
+        jobs: &[Job],
+        record: Record,
+    ) -> (Vec<Reading>, &Batch) {
+        let (casts, cast) = casts(scene, jobs);
+        let bodies: Vec<&Bodies> = cast.iter().map(|&cast| &casts[cast]).collect();
+        let readings = self.run(scene, jobs, &bodies, record, true);
+        (readings, self.stepper.batch())
+    }
+
+    fn run(
+        &mut self,
+        scene: &Scene,
+        jobs: &[Job],
+        bodies: &[&Bodies],
+        record: Record,
+        read: bool,
+    ) -> Vec<Reading> {
+        let Self { by, settings, memories, stepper, work } = self;
         if memories.len() < jobs.len() {
             memories.resize_with(jobs.len(), Memory::default);
         }
         let mut runs: Vec<Run> = jobs
             .iter()
             .zip(memories)
-            .zip(&cast)
-            .map(|((job, memory), &cast)| {
-                Run::new(scene, job, &casts[cast], memory, *settings, record, by)
+            .zip(bodies)
+            .map(|((job, memory), bodies)| {
+                Run::new(scene, job, bodies, memory, *settings, record, by)
             })
             .collect();
-        while stepper.step(&mut runs, correct.as_deref_mut()) {}
+        stepper.begin();
+        while stepper.step(&mut runs, read) {}
         runs.iter().for_each(|run| work.add(run.work()));
         runs.into_iter().map(Run::finish).collect()
     }

@@ -3,12 +3,13 @@
 use crate::{
     contact::{Bodies, FrameProblem, Motion, Movable, Touch},
     geometry::{Pose, Vector},
-    outcome::{Contact, Frame, ObjectRules, Record, Spread, Trajectory, Warning},
+    outcome::{Contact, Frame, ObjectRules, Record, Trajectory, Warning},
     scene::{Body, ModelSpec, REST_SPEED, Region, Scene, State, Velocity},
     task::{COAST_FRAME, FrameStep, Job, MAX_COAST_FRAMES, Stroke},
 };
 
 use super::{
+    correction::{Read, Reading},
     doubt::{Depths, loosest_joint},
     integrate::integrate,
     pressing::Pressing,
@@ -62,6 +63,11 @@ pub(super) struct Run<'a> {
     blocked: bool,
     pressing: Pressing,
     work: Work,
+    /// Whether the next frame with an awake object is read: every second one is.
+    reads_next: bool,
+    /// Node of every object in the frame read last, if the frame before belongs to it.
+    nodes: Vec<Option<u32>>,
+    reads: Vec<Read>,
     trajectory: Trajectory,
 }
 
@@ -97,6 +103,9 @@ impl<'a> Run<'a> {
             blocked: false,
             pressing: Pressing::default(),
             work: Work { rollouts: 1, ..Work::default() },
+            reads_next: true,
+            nodes: vec![None; scene.objects.len()],
+            reads: Vec::new(),
             trajectory: Trajectory::new(by.clone()),
         };
         if record == Record::Frames {
@@ -344,8 +353,8 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Completes the job and returns its trajectory.
-    pub fn finish(mut self) -> Trajectory {
+    /// Completes the job and returns its analytic trajectory.
+    pub fn finish(mut self) -> Reading {
         self.doubt();
         let motion = self.job.motion.slide();
         if self.trajectory.frames.is_empty() || self.blocked {
@@ -353,16 +362,38 @@ impl<'a> Run<'a> {
             self.keep_frame(motion.strokes.last().map(|stroke| stroke.to).unwrap_or_default());
         }
         self.trajectory.resolve_parts(self.scene, &motion.tool);
-        self.trajectory
+        Reading { trajectory: self.trajectory, reads: self.reads }
+    }
+
+    /// Records the motions of the objects whose nodes the network reads, in the frame after
+    /// recorded frame `before`.
+    fn keep_reads(&mut self, motions: &[Motion], before: usize) {
+        let after = self.trajectory.frames.len().saturating_sub(1);
+        let bodies = &self.memory.subset.bodies;
+        for (own, (motion, body)) in motions.iter().zip(&bodies.objects).enumerate() {
+            let object = self.memory.subset.objects[own].0;
+            let length = motion.shift.norm() + body.support * motion.turn.abs();
+            if let Some(node) = self.nodes[object].filter(|_| length > 0.0) {
+                self.reads.push(Read {
+                    node,
+                    object: object as u32,
+                    frames: [before as u32, after as u32],
+                    length,
+                    axis: self.axis,
+                    support: body.support,
+                });
+            }
+        }
     }
 }
 
 impl Walk for Run<'_> {
-    fn next(&mut self) -> Option<FrameProblem<'_>> {
+    fn next(&mut self) -> Option<(FrameProblem<'_>, bool)> {
         self.next_step();
         let Memory { subset, state, .. } = &*self.memory;
         let step = self.step.as_ref()?;
-        Some(FrameProblem { bodies: &subset.bodies, state, step, axis: self.axis })
+        let problem = FrameProblem { bodies: &subset.bodies, state, step, axis: self.axis };
+        Some((problem, self.reads_next))
     }
 
     fn note(&mut self, found: Found<'_>) {
@@ -373,10 +404,14 @@ impl Walk for Run<'_> {
         self.work.graphs += u64::from(!self.idle);
         self.work.nodes += found.awake as u64;
         self.work.relations += found.relations as u64;
-        for &(own, spread) in found.doubts {
-            self.trajectory.spreads.resize(self.scene.objects.len(), Spread::default());
-            self.trajectory.spreads[self.memory.subset.objects[own.0].0] += spread;
+        if self.reads_next || self.idle {
+            self.nodes.fill(None);
+            for (k, node) in found.nodes.iter().enumerate() {
+                let object = self.memory.subset.objects[node.object.0].0;
+                self.nodes[object] = Some((found.first + k) as u32);
+            }
         }
+        self.reads_next = found.nodes.is_empty();
         found.touches.iter().for_each(|touch| self.touch(touch));
     }
 
@@ -395,6 +430,8 @@ impl Walk for Run<'_> {
             return;
         }
         subset.return_state(state, &mut self.state);
+        let before = self.trajectory.frames.len().saturating_sub(1);
         self.end_frame(&step);
+        self.keep_reads(motions, before);
     }
 }

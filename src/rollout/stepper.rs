@@ -1,18 +1,19 @@
-//! A frame of many rollouts side by side: solution, correction by the network, integration.
+//! A frame of many rollouts side by side: solution, graph, integration.
+
+use std::ops::Range;
 
 use crate::{
-    contact::{Frame, FrameProblem, FrameSolver, ListIndex, Motion, SolverStats, Touch},
-    graph::{Batch, Correction},
-    outcome::Spread,
+    contact::{Frame, FrameProblem, FrameSolver, Motion, SolverStats, Touch},
+    graph::{Batch, Corrections, Node},
 };
 
-/// A correction of every node of a batch: fills the vector with one entry per node.
-pub type Corrector<'a> = dyn FnMut(&Batch, &mut Vec<Correction>) + 'a;
+/// A correction of every node of a batch.
+pub type Corrector<'a> = dyn FnMut(&Batch, &mut Corrections) + 'a;
 
 /// A simulation that advances frame by frame.
 pub trait Walk {
-    /// Returns the next frame to compute; `None` at the end.
-    fn next(&mut self) -> Option<FrameProblem<'_>>;
+    /// Returns the next frame to compute, and whether the network may read it; `None` at the end.
+    fn next(&mut self) -> Option<(FrameProblem<'_>, bool)>;
 
     /// Receives the solution of the frame's equations before anything moves.
     fn note(&mut self, _found: Found<'_>) {}
@@ -26,12 +27,14 @@ pub trait Walk {
 pub struct Found<'a> {
     /// Number of awake objects.
     pub awake: usize,
-    /// Number of relations of the frame's graph; zero without correction.
+    /// Number of relations of the frame's graph; zero for a frame that is not read.
     pub relations: usize,
+    /// Nodes of the frame's graph; none for a frame that is not read.
+    pub nodes: &'a [Node],
+    /// Index of the first node in the batch.
+    pub first: usize,
     /// Contacts that are closed or close in the frame.
     pub touches: &'a [Touch],
-    /// Contributions of the frame to the expected final error, for corrected objects.
-    pub doubts: &'a [(ListIndex, Spread)],
 }
 
 /// Advances many walks by one frame at a time, on memory that it keeps from one step to the next.
@@ -39,8 +42,8 @@ pub struct Found<'a> {
 pub struct Stepper {
     most: usize,
     solver: FrameSolver,
+    /// Graphs of all frames read since [`Stepper::begin`].
     batch: Batch,
-    corrections: Vec<Correction>,
     /// Frame of every walk.
     frames: Vec<Frame>,
     steps: Vec<Step>,
@@ -53,19 +56,18 @@ struct Step {
     walking: bool,
     motions: Vec<Motion>,
     touches: Vec<Touch>,
-    doubts: Vec<(ListIndex, Spread)>,
     awake: usize,
     relations: usize,
+    nodes: Range<usize>,
 }
 
 impl Stepper {
-    /// Creates a stepper that corrects frames with at most `most` awake objects.
-    pub fn correcting(most: usize) -> Self {
+    /// Creates a stepper that reads frames with at most `most` awake objects.
+    pub fn reading(most: usize) -> Self {
         Self {
             most,
             solver: FrameSolver::default(),
             batch: Batch::default(),
-            corrections: Vec::new(),
             frames: Vec::new(),
             steps: Vec::new(),
         }
@@ -76,68 +78,61 @@ impl Stepper {
         self.solver.tally()
     }
 
-    /// Advances every walk that has a frame left, with all graphs in one batch. Returns `true` if
-    /// any walk had a frame.
+    /// Forgets the graphs read so far.
+    pub fn begin(&mut self) {
+        self.batch.clear();
+    }
+
+    /// Returns the graphs read since [`Stepper::begin`]; the number of a graph is the index of its
+    /// walk.
+    pub fn batch(&self) -> &Batch {
+        &self.batch
+    }
+
+    /// Advances every walk that has a frame left. Returns `true` if any walk had a frame.
     ///
-    /// Walks do not influence each other; they only share the network's batch. Without `correct` no
-    /// graphs are built.
-    pub fn step<W: Walk>(
-        &mut self,
-        walks: &mut [W],
-        correct: Option<&mut (impl FnMut(&Batch, &mut Vec<Correction>) + ?Sized)>,
-    ) -> bool {
-        let Self { most, solver, batch, corrections, frames, steps } = self;
-        batch.clear();
+    /// Walks do not influence each other. Graphs are built only if `read`.
+    pub fn step<W: Walk>(&mut self, walks: &mut [W], read: bool) -> bool {
+        let Self { most, solver, batch, frames, steps } = self;
         if steps.len() < walks.len() {
             frames.resize_with(walks.len(), Frame::default);
             steps.resize_with(walks.len(), Step::default);
         }
-        let problems: Vec<_> = walks.iter_mut().map(W::next).collect();
+        let (problems, reads): (Vec<_>, Vec<_>) = walks
+            .iter_mut()
+            .map(|walk| match walk.next() {
+                Some((problem, reads)) => (Some(problem), read && reads),
+                None => (None, false),
+            })
+            .unzip();
         solver.begin(&problems, frames);
-        let most = if correct.is_some() { *most } else { 0 };
-        let all = problems.iter().zip(frames).zip(&mut *steps);
-        for (graph, ((problem, frame), step)) in all.enumerate() {
+        let all = problems.iter().zip(reads).zip(frames).zip(&mut *steps);
+        for (graph, (((problem, read), frame), step)) in all.enumerate() {
             step.walking = problem.is_some();
             let Some(problem) = *problem else { continue };
-            let relations = batch.relation_count();
-            let (frame, forces) = solver.finish(problem, frame, most);
+            let (relations, first) = (batch.relation_count(), batch.node_count());
+            let (frame, forces) = solver.finish(problem, frame, if read { *most } else { 0 });
             // The network was not trained with joints to the world.
-            let learnt = correct.is_some() && frame.bodies.mounts.is_empty();
-            if let Some(forces) = forces.filter(|_| learnt) {
+            let known = read && frame.bodies.mounts.is_empty();
+            if let Some(forces) = forces.filter(|_| known) {
                 batch.add(graph as u32, &frame, &forces);
             }
             frame.fill(&mut step.motions);
             step.touches.clear();
-            step.doubts.clear();
             step.touches.extend(frame.touches());
             step.awake = frame.motions.len();
             step.relations = batch.relation_count() - relations;
+            step.nodes = first..batch.node_count();
         }
         if problems.iter().all(Option::is_none) {
             return false;
         }
-        if let Some(correct) = correct {
-            correct(batch, corrections);
-            apply(batch, corrections, steps);
-        }
         for (walk, step) in walks.iter_mut().zip(steps).filter(|(_, step)| step.walking) {
-            let Step { awake, relations, ref touches, ref doubts, .. } = *step;
-            walk.note(Found { awake, relations, touches, doubts });
+            let Step { awake, relations, ref touches, ref nodes, .. } = *step;
+            let (first, nodes) = (nodes.start, &batch.nodes[nodes.clone()]);
+            walk.note(Found { awake, relations, nodes, first, touches });
             walk.advance(&step.motions);
         }
         true
-    }
-}
-
-/// Writes the corrected motion of every node into the list of its graph.
-fn apply(batch: &Batch, corrections: &[Correction], steps: &mut [Step]) {
-    for (node, correction) in batch.nodes.iter().zip(corrections) {
-        let mut output = node.prior;
-        for (value, change) in output.iter_mut().zip(&correction.output) {
-            *value += change;
-        }
-        let step = &mut steps[node.graph as usize];
-        step.motions[node.object.0] = node.decode(&output);
-        step.doubts.extend(correction.doubt.map(|doubt| (node.object, node.decode_doubt(doubt))));
     }
 }

@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use pushplan::internals::contact::{Bodies, FrameProblem, FrameSolver};
-use pushplan::internals::graph::Batch;
+use pushplan::internals::graph::{Batch, Corrections};
 use pushplan::internals::network::{Buffers, Forward, PredictorWeights, matrix_product};
 use pushplan::internals::sim::Simulator;
 use pushplan::internals::{outcome::Record, task::Job};
@@ -63,7 +63,7 @@ pub fn inference_costs(
             let mut batch = Batch::default();
             let building = fill(&mut batch, cases, size);
             let mut buffers = Buffers::default();
-            let mut corrections = Vec::new();
+            let mut corrections = Corrections::default();
             let fused = best(|| forward.run(&batch, &mut buffers, &mut corrections));
             let work = forward.operations(&batch);
             InferenceCost {

@@ -1,11 +1,11 @@
 //! Names of data and networks, each with its line in `--help`.
 
 use crate::dataset::{JointRule, LeverPreset, Preset, Solids, Truth};
-use crate::train::Exposure;
 
 /// Families of training scenes.
-pub static PRESETS: [(&str, Preset, &str); 5] = [
+pub static PRESETS: [(&str, Preset, &str); 6] = [
     ("tools", Preset::Tools, "1 to 3 objects, sometimes obstacles, pushed by random tools"),
+    ("placed", Preset::Placed, "The same tables, one push as a planner places it"),
     ("sparse", Preset::Sparse, "Scattered objects, seven or eight strokes of a round hand"),
     ("sparse-line", Preset::SparseLine, "Scattered objects, one long stroke through them"),
     ("dense", Preset::Dense, "Objects almost touching, one stroke into them"),
@@ -40,7 +40,7 @@ pub enum Data {
 }
 
 /// Names of all data.
-pub static DATA: [(&str, Data, &str); 11] = data();
+pub static DATA: [(&str, Data, &str); 12] = data();
 
 /// Joints between near neighbours of a crowd.
 pub static JOINTS: [(&str, JointRule, &str); 3] = [
@@ -49,8 +49,8 @@ pub static JOINTS: [(&str, JointRule, &str); 3] = [
     ("mixed", JointRule::Mixed, "Fixed, revolute and prismatic joints between some neighbours"),
 ];
 
-const fn data() -> [(&'static str, Data, &'static str); 11] {
-    let mut all = [("", Data::Levers(LeverPreset::Fixed), ""); 11];
+const fn data() -> [(&'static str, Data, &'static str); 12] {
+    let mut all = [("", Data::Levers(LeverPreset::Fixed), ""); 12];
     let mut k = 0;
     while k < all.len() {
         all[k] = if k < PRESETS.len() {
@@ -69,15 +69,4 @@ const fn data() -> [(&'static str, Data, &'static str); 11] {
 pub static SOLIDS: [(&str, Solids, &str); 2] = [
     ("cylinders", Solids::Cylinders, "Cylinders only"),
     ("any", Solids::Any, "Cylinders and cuboids"),
-];
-
-/// Distributions of the number of rollout frames before an example.
-pub static EXPOSURES: [(&str, Exposure, &str); 3] = [
-    ("pushforward", Exposure::Pushforward, "Uniform distribution"),
-    (
-        "scheduled",
-        Exposure::Scheduled,
-        "Scheduled sampling: each frame with a probability that rises from zero to one",
-    ),
-    ("multi-step", Exposure::MultiStep, "Full rollout from every start; every frame is an example"),
 ];

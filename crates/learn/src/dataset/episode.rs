@@ -43,8 +43,8 @@ impl Episode {
         // Almost every attempt succeeds; an attempt fails if no push could be aimed or an object
         // did not come to rest.
         loop {
-            if let Some((scene, motion, frames)) = pushed_by_tool(&mut rng, &ranges, config.truth)?
-            {
+            let drawn = pushed_by_tool(&mut rng, &ranges, config.preset, config.truth)?;
+            if let Some((scene, motion, frames)) = drawn {
                 return Ok(Self { index, scene, motion, frames });
             }
         }

@@ -33,6 +33,9 @@ pub enum Preset {
     /// cuboids and occasionally by a round tool.
     #[default]
     Tools,
+    /// The tables and tools of [`Preset::Tools`] with pushes as planners make them: one placed push
+    /// without rotation of the tool, on objects with uniform support.
+    Placed,
     /// Scattered objects. The hand makes seven or eight straight 30 cm strokes, each aimed at an
     /// untouched object.
     Sparse,
@@ -57,6 +60,7 @@ impl Preset {
     pub fn ranges(self) -> Ranges {
         match self {
             Preset::Tools => tools(),
+            Preset::Placed => Ranges { turn: 0.0, pushes: Span::new(1.0, 1.0), ..tools() },
             Preset::Sparse => crowd(Span::new(0.30, 0.30), Span::new(7.0, 8.0)),
             Preset::SparseLine => crowd(Span::new(0.60, 2.0), Span::new(1.0, 1.0)),
             Preset::Dense => crowd(Span::new(0.50, 0.50), Span::new(1.0, 1.0)),
@@ -70,7 +74,7 @@ impl Preset {
 
     /// Returns `true` if scenes are crowds pushed by the hand, which can be constrained.
     pub fn is_crowd(self) -> bool {
-        self != Preset::Tools
+        !matches!(self, Preset::Tools | Preset::Placed)
     }
 
     /// Draws the family of one episode.

@@ -21,6 +21,7 @@ use super::jam::{crosses_obstacle, shortened_before_jam};
 use super::mujoco;
 use super::novelty::is_shipped;
 use super::obstacle::place_obstacle;
+use super::preset::Preset;
 use super::tabletop::{Crowd, Solids, anywhere, random_friction, random_scene};
 use super::truth::Truth;
 use super::unseen::{draw_heights, draw_supports, push_height};
@@ -82,9 +83,11 @@ const SHORTEST: f64 = 0.02;
 pub(super) fn pushed_by_tool(
     rng: &mut Pcg64,
     ranges: &Ranges,
+    preset: Preset,
     truth: Truth,
 ) -> Result<Option<(Scene, ToolMotion, Vec<Frame>)>, DatasetError> {
-    let Some((mut scene, motion, planar)) = planned(rng, ranges, truth) else { return Ok(None) };
+    let drawn = planned(rng, ranges, preset, truth);
+    let Some((mut scene, motion, planar)) = drawn else { return Ok(None) };
     let spatial = match truth {
         Truth::Both => rng.random_bool(SPATIAL),
         Truth::Planar => false,
@@ -108,11 +111,16 @@ pub(super) fn pushed_by_tool(
 fn planned(
     rng: &mut Pcg64,
     ranges: &Ranges,
+    preset: Preset,
     truth: Truth,
 ) -> Option<(Scene, ToolMotion, Trajectory)> {
+    let as_planned = preset == Preset::Placed;
     let mut ranges = ranges.clone();
     if truth == Truth::Mujoco {
-        ranges.speed = MUJOCO_SPEED;
+        ranges.speed.low = MUJOCO_SPEED.low;
+        if !as_planned {
+            ranges.speed.high = MUJOCO_SPEED.high;
+        }
     }
     let ranges = &ranges;
     let crowd = Crowd {
@@ -123,11 +131,13 @@ fn planned(
     };
     let scene = random_scene(rng, ranges, crowd);
     let mut scene = anywhere(rng, scene);
-    draw_supports(rng, &mut scene);
+    if !as_planned {
+        draw_supports(rng, &mut scene);
+    }
     draw_heights(rng, ranges, &mut scene);
     scene.push_height = Some(push_height(rng));
     let tool = Arc::new(new_tool(rng, ranges));
-    let count = 1 + weighted(rng, &PUSH_COUNTS);
+    let count = if as_planned { 1 } else { 1 + weighted(rng, &PUSH_COUNTS) };
     let placed = rng.random::<bool>();
 
     let mut motion = ToolMotion { tool, lift: LIFT, strokes: Vec::new() };

@@ -1,13 +1,14 @@
 //! Error predicted by the network itself, fitted to its own rollouts after training, see [`Doubt`].
 
 use pushplan::internals::effect::Network;
-use pushplan::internals::geometry::Pose;
-use pushplan::internals::graph::{Batch, Correction, Node};
+use pushplan::internals::geometry::{Pose, wrap_angle};
+use pushplan::internals::graph::{Corrections, READOUTS};
 use pushplan::internals::network::{Buffers, Doubt, Forward, PredictorWeights};
-use pushplan::internals::rollout::{RollSettings, Roller};
+use pushplan::internals::rollout::{Read, RollSettings, Roller};
 use pushplan::internals::{
+    contact::Bodies,
     outcome::Record,
-    scene::{ModelKind, ModelSpec},
+    scene::{CORRECTED, ModelKind, ModelSpec},
     task::Job,
 };
 use rayon::prelude::*;
@@ -35,10 +36,12 @@ const LEAST: [f64; 2] = [2e-5, 2e-4];
 struct Case {
     /// Error of the position, metres, and of the heading, radians, unless the object is round.
     errors: [Option<f64>; 2],
-    /// Factors from output units to metres and radians.
-    units: [f64; 2],
+    /// Lengths of the motion in each frame, metres and radians, `[T]` each.
+    lengths: [Vec<f64>; 2],
     /// Even half of the hidden row of each frame, [T, h].
     rows: Vec<f32>,
+    /// Distances of the readouts from their mean, metres and radians.
+    apart: [f64; 2],
     /// Weight of the case.
     weight: f64,
 }
@@ -52,6 +55,7 @@ pub(super) fn fit_doubt(weights: &PredictorWeights, sets: &[Dataset]) -> Doubt {
     Doubt {
         bias: [position.bias as f32, heading.bias as f32],
         floor: [position.floor() as f32, heading.floor() as f32],
+        apart: [position.apart.exp() as f32, heading.apart.exp() as f32],
         weights: [position, heading]
             .map(|fitted| fitted.weights.iter().map(|w| *w as f32).collect()),
     }
@@ -71,45 +75,51 @@ fn cases(network: &Network, set: &Dataset) -> Vec<Case> {
 
 fn rolled(forward: &Forward, episode: &Episode) -> Vec<Case> {
     let half = forward.half();
-    let count = episode.scene.objects.len();
-    let mut rows: Vec<(Vec<f32>, Option<Node>)> = vec![(Vec::new(), None); count];
-    let mut buffers = Buffers::default();
-    let mut correct = |batch: &Batch, corrections: &mut Vec<Correction>| {
-        forward.run(batch, &mut buffers, corrections);
-        for (k, node) in batch.nodes.iter().enumerate() {
-            let (own, last) = &mut rows[node.object.0];
-            own.extend_from_slice(&buffers.hidden()[k * half..(k + 1) * half]);
-            *last = Some(*node);
-        }
-    };
-    let job = Job::stated(&episode.scene, episode.motion.clone());
-    // Pruning is disabled, so that objects keep their indices in the scene.
-    let settings = RollSettings { pruned: false, ..RollSettings::default() };
-    let spec = ModelSpec::from(ModelKind::NETWORK);
-    let found = Roller::new(spec, settings).roll(
-        &episode.scene,
-        std::slice::from_ref(&job),
-        Record::Outcome,
-        Some(&mut correct),
-    );
-    let (Some(predicted), Some(truth)) = (found.first(), episode.frames.last()) else {
-        return Vec::new();
-    };
+    let scene = &episode.scene;
+    let job = Job::stated(scene, episode.motion.clone());
+    let settings = RollSettings { corrected: CORRECTED, ..RollSettings::default() };
+    let mut roller = Roller::new(ModelSpec::from(ModelKind::NETWORK), settings);
+    let (readings, batch) = roller.read(scene, std::slice::from_ref(&job), Record::Outcome);
+    let (mut buffers, mut corrections) = (Buffers::default(), Corrections::default());
+    forward.run(batch, &mut buffers, &mut corrections);
+    let Some(reading) = readings.into_iter().next() else { return Vec::new() };
+    let Some(truth) = episode.frames.last() else { return Vec::new() };
+    let reads = reading.reads.clone();
+    let bodies = Bodies::new(scene, &episode.motion.tool, episode.motion.lift, &job.physics);
+    let predicted = reading.corrected(&bodies, &corrections);
     let (start, end) = (&episode.frames[0].state, predicted.outcome());
-    let case = |(k, (rows, node)): (usize, (Vec<f32>, Option<Node>))| {
-        let unit = node?.decode_doubt([1.0, 1.0]);
+    let case = |k: usize| {
+        let own: Vec<&Read> = reads.iter().filter(|read| read.object as usize == k).collect();
         let [start, end, truth] = [start, end, &truth.state].map(|state| state.poses[k]);
         let travel = |pose: &Pose| (pose.position - start.position).norm();
-        let round = episode.scene.objects[k].shape.is_cylinder();
-        let turned = (end.heading - truth.heading).abs();
-        (travel(&truth).max(travel(&end)) > MOVED).then_some(Case {
+        let moved = travel(&truth).max(travel(&end)) > MOVED;
+        if own.is_empty() || !moved {
+            return None;
+        }
+        let mut sums = [[0.0; 3]; READOUTS];
+        let mut rows = Vec::with_capacity(own.len() * half);
+        for read in &own {
+            let node = read.node as usize;
+            rows.extend_from_slice(&buffers.hidden()[node * half..(node + 1) * half]);
+            for (sum, readout) in sums.iter_mut().zip(corrections.nodes[node].readouts) {
+                let change = read.change(readout);
+                (0..3).for_each(|k| sum[k] += change[k]);
+            }
+        }
+        let [a, b] = sums;
+        let round = scene.objects[k].shape.is_cylinder();
+        let turned = wrap_angle(end.heading - truth.heading).abs();
+        let lengths = own.iter().map(|read| read.length);
+        let turns = own.iter().map(|read| read.length / read.support);
+        Some(Case {
             errors: [Some((end.position - truth.position).norm()), (!round).then_some(turned)],
-            units: [unit.position, unit.heading],
+            lengths: [lengths.collect(), turns.collect()],
             rows,
+            apart: [(a[0] - b[0]).hypot(a[1] - b[1]) / 2.0, (a[2] - b[2]).abs() / 2.0],
             weight: 1.0,
         })
     };
-    rows.into_iter().enumerate().filter_map(case).collect()
+    (0..scene.objects.len()).filter_map(case).collect()
 }
 
 /// Parameters fitted for position or heading.
@@ -119,6 +129,8 @@ struct Fitted {
     bias: f64,
     /// Logarithm of the lower bound.
     low: f64,
+    /// Logarithm of the share of the distance between readouts.
+    apart: f64,
 }
 
 impl Fitted {
@@ -127,7 +139,7 @@ impl Fitted {
     }
 
     fn values(&mut self) -> impl Iterator<Item = &mut f64> {
-        self.weights.iter_mut().chain([&mut self.bias, &mut self.low])
+        self.weights.iter_mut().chain([&mut self.bias, &mut self.low, &mut self.apart])
     }
 }
 
@@ -140,18 +152,19 @@ fn fit(cases: &[Case], k: usize, half: usize) -> Fitted {
         cases.iter().map(|case| case.weight * value(case)).sum::<f64>() / whole.max(1e-12)
     };
     let error = mean(&|case| case.errors[k].unwrap_or(0.0)).max(LEAST[k]);
-    let frames = mean(&|case| case.rows.len() as f64 / half as f64 * case.units[k]);
+    let length = mean(&|case| case.lengths[k].iter().sum());
     let mut fitted = Fitted {
         weights: vec![0.0; half],
-        bias: (error / frames.max(1e-12)).ln(),
+        bias: (error / length.max(1e-12)).ln(),
         low: (0.1 * error).ln(),
+        apart: 0.1f64.ln(),
     };
-    let mut moments = vec![[0.0f64; 2]; half + 2];
+    let mut moments = vec![[0.0f64; 2]; half + 3];
     for step in 1..=STEPS {
         let gradients: Vec<Vec<f64>> = cases
             .par_chunks(256)
             .map(|chunk| {
-                let mut sum = vec![0.0; half + 2];
+                let mut sum = vec![0.0; half + 3];
                 chunk.iter().for_each(|case| gradient(case, k, &fitted, &mut sum));
                 sum
             })
@@ -175,15 +188,15 @@ fn fit(cases: &[Case], k: usize, half: usize) -> Fitted {
 /// Adds the gradient of a case's share of ln S + r / S.
 fn gradient(case: &Case, k: usize, fitted: &Fitted, sum: &mut [f64]) {
     let half = fitted.weights.len();
-    let added: Vec<f64> = case
-        .rows
-        .chunks_exact(half)
-        .map(|row| {
+    let frames = case.rows.chunks_exact(half).zip(&case.lengths[k]);
+    let added: Vec<f64> = frames
+        .map(|(row, length)| {
             let dot: f64 = row.iter().zip(&fitted.weights).map(|(x, w)| f64::from(*x) * w).sum();
-            (dot + fitted.bias).min(4.0).exp() * case.units[k]
+            (dot + fitted.bias).min(0.0).exp() * length
         })
         .collect();
-    let spread = fitted.floor() + added.iter().sum::<f64>();
+    let apart = fitted.apart.exp() * case.apart[k];
+    let spread = fitted.floor() + apart + added.iter().sum::<f64>();
     let error = case.errors[k].unwrap_or(0.0).max(LEAST[k]);
     let slope = case.weight * (1.0 / spread - error / (spread * spread));
     for (row, added) in case.rows.chunks_exact(half).zip(&added) {
@@ -193,4 +206,5 @@ fn gradient(case: &Case, k: usize, fitted: &Fitted, sum: &mut [f64]) {
     }
     sum[half] += slope * added.iter().sum::<f64>();
     sum[half + 1] += slope * fitted.floor();
+    sum[half + 2] += slope * apart;
 }

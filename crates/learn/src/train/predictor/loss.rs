@@ -1,59 +1,54 @@
-//! Loss of a single frame: pseudo-Huber on the six outputs of every node.
+//! Loss of whole pushes: pseudo-Huber on the error of every pose.
 
-use candle_core::{Device, Result, Tensor};
+use candle_core::{D, Device, Result, Tensor};
+use pushplan::internals::graph::{OUTPUT_EVEN, OUTPUT_ODD, READOUTS};
+use pushplan::internals::network::MOST_CHANGE;
 
-/// Error above which the loss is linear, in output units (0.1 mm).
+use super::example::Supervised;
+
+/// Error above which the loss is linear, millimetres.
 ///
 /// Pushes at the edge of slipping off are unpredictable and must not dominate the weights.
-const KNEE: f64 = 0.01;
+const KNEE: f64 = 0.5;
 
-/// Weights of shifts (x, y), of rotations, and of the corresponding velocities.
-const SHIFT: f32 = 1.0;
-const TURN: f32 = 1.0;
-/// Velocities affect only the free sliding after a push.
-const VELOCITY: f32 = 0.2;
-/// The rotation of a cylinder is unobservable and hardly affects its sliding.
-const CYLINDER: f32 = 0.1;
-
-/// Returns the weights of a node's six outputs, in their order.
-pub(super) fn weights(cylinder: bool) -> [f32; 6] {
-    let turn = if cylinder { CYLINDER } else { 1.0 };
-    [SHIFT, VELOCITY, SHIFT, TURN * turn, VELOCITY, VELOCITY * turn]
-}
-
-/// Returns the sum over nodes and outputs of weight x KNEE^2 (sqrt(1 + (e / KNEE)^2) - 1), divided
-/// by `count`.
-///
-/// Shapes: predicted [N, 6], target and weight row-major [N, 6].
-pub(super) fn loss(
-    predicted: &Tensor,
-    target: Vec<f32>,
-    weight: Vec<f32>,
-    count: usize,
-) -> Result<Tensor> {
-    let shape = predicted.shape().clone();
-    let target = Tensor::from_vec(target, shape.clone(), &Device::Cpu)?;
-    let weight = Tensor::from_vec(weight, shape, &Device::Cpu)?;
-    let error = ((predicted - target)? / KNEE)?;
-    // The argument of the root is at least one, so the gradient is finite.
-    let huber = ((error.sqr()? + 1.0)?.sqrt()? - 1.0)?;
-    (huber * weight)?.sum_all()? * (KNEE * KNEE / count as f64)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn small_errors_count_by_half_their_square_and_large_ones_linearly() -> Result<()> {
-        let at = |e: f32| -> Result<f32> {
-            let predicted =
-                Tensor::from_vec(vec![e, 0.0, 0.0, 0.0, 0.0, 0.0], (1, 6), &Device::Cpu)?;
-            loss(&predicted, vec![0.0; 6], vec![1.0; 6], 1)?.to_scalar()
-        };
-        assert!((at(0.001)? - 0.5e-6).abs() < 1e-8);
-        let slope = at(10.0)? - at(9.0)?;
-        assert!((slope - KNEE as f32).abs() < 1e-4);
-        Ok(())
-    }
+/// Returns the mean loss of `count` pushes, millimetres. `outputs` are those of all nodes, [N, 6].
+pub(super) fn loss(outputs: &Tensor, drawn: &Supervised, count: usize) -> Result<Tensor> {
+    let Supervised { nodes, targets, scales, changes, weights, readouts, .. } = drawn;
+    let (rows, all) = (nodes.len(), changes.len() / 3);
+    let table = |values: &[f32], rows: usize, columns: usize| {
+        Tensor::from_slice(values, (rows, columns), &Device::Cpu)
+    };
+    let index = |values: &[u32]| Tensor::from_slice(values, values.len(), &Device::Cpu);
+    let (nodes, targets) = (index(nodes)?, index(targets)?);
+    let scales = table(scales, rows, 3)?;
+    let scale = |k: usize| scales.narrow(1, k, 1);
+    // Rates of every readout, [N, READOUTS].
+    let x = outputs.narrow(1, 0, OUTPUT_EVEN)?;
+    let odd = outputs.narrow(1, OUTPUT_EVEN, OUTPUT_ODD)?.reshape(((), READOUTS, 2))?;
+    let (y, turn) = (odd.narrow(2, 0, 1)?.squeeze(2)?, odd.narrow(2, 1, 1)?.squeeze(2)?);
+    let share = |square: Tensor| {
+        ((square / (MOST_CHANGE * MOST_CHANGE))? + 1.0)?.sqrt()?.recip()
+    };
+    let shift = share((x.sqr()? + y.sqr()?)?)?;
+    let of = |rate: Tensor| rate.contiguous()?.index_select(&nodes, 0);
+    let (along, across) = (of((x * &shift)?)?, of((y * &shift)?)?);
+    let turn = of((&turn * share(turn.sqr()?)?)?)?;
+    let sum = |change: Tensor| -> Result<Tensor> {
+        let zeros = Tensor::zeros((all, READOUTS), change.dtype(), &Device::Cpu)?;
+        let shares = table(readouts, all, READOUTS)?;
+        (zeros.index_add(&targets, &change, 0)? * shares)?.sum(D::Minus1)
+    };
+    let to_x = (along.broadcast_mul(&scale(0)?)? - across.broadcast_mul(&scale(1)?)?)?;
+    let to_y = (along.broadcast_mul(&scale(1)?)? + across.broadcast_mul(&scale(0)?)?)?;
+    let to_turn = turn.broadcast_mul(&scale(2)?)?;
+    let (changes, weights) = (table(changes, all, 3)?, table(weights, all, 2)?);
+    let off = |change: Tensor, k: usize| sum(change)? - changes.narrow(1, k, 1)?.squeeze(1)?;
+    let huber = |square: Tensor, k: usize| -> Result<Tensor> {
+        // The argument of the root is at least one, so the gradient is finite.
+        let value = ((((square / (KNEE * KNEE))? + 1.0)?.sqrt()? - 1.0)? * KNEE)?;
+        (value * weights.narrow(1, k, 1)?.squeeze(1)?)?.sum_all()
+    };
+    let position = (off(to_x, 0)?.sqr()? + off(to_y, 1)?.sqr()?)?;
+    let heading = off(to_turn, 2)?.sqr()?;
+    (huber(position, 0)? + huber(heading, 1)?)? / count as f64
 }

@@ -1,4 +1,4 @@
-//! Training of the physics predictor on single frames of episodes, see [`crate::dataset::Episode`].
+//! Training of the physics predictor on whole pushes, see [`crate::dataset::Episode`].
 
 mod doubt;
 mod example;
@@ -8,7 +8,7 @@ mod settings;
 mod share;
 mod task;
 
-pub use example::{Examples, Exposure, Noise};
+pub use example::Examples;
 pub use rollout_error::{HeldOutError, rollout_error};
 pub use settings::PredictorSettings;
 pub use task::train_predictor;

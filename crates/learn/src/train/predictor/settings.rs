@@ -5,19 +5,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::train::Descent;
 
-use super::Noise;
-
 /// Settings of a run; the defaults are the settings of the shipped weights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PredictorSettings {
     /// Network size.
     pub config: Config,
-    /// Seed of initial weights, batches and noise.
+    /// Seed of initial weights and batches.
     pub seed: u64,
     /// Optimisation settings.
     pub descent: Descent,
-    /// Perturbation of input states.
-    pub noise: Noise,
 }
 
 impl Default for PredictorSettings {
@@ -26,9 +22,9 @@ impl Default for PredictorSettings {
             config: Config::default(),
             seed: 1,
             descent: Descent {
-                steps: 3000,
-                // Large enough to keep the matrix products of two cores busy.
-                batch: 256,
+                steps: 5000,
+                // Pushes, each of some ten graphs.
+                batch: 128,
                 evaluate_every: 500,
                 learning_rate: 1e-3,
                 warm_up: 500,
@@ -36,7 +32,6 @@ impl Default for PredictorSettings {
                 clip: 1.0,
                 average: 0.999,
             },
-            noise: Noise::default(),
         }
     }
 }

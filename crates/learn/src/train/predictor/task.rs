@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use pushplan::internals::asset::write_atomic;
 use pushplan::internals::effect::{Network, PRIOR_RANGES};
 use pushplan::internals::network::{
-    ErrorCard, Forward, Normaliser, Parameters, PredictorCard, PredictorWeights, Source, Tables,
+    ErrorCard, Normaliser, Parameters, PredictorCard, PredictorWeights, Source, Tables,
 };
 use pushplan::internals::progress::Progress;
 use pushplan_bench::store::FolderLock;
 
-use crate::dataset::{Dataset, DatasetConfig};
+use crate::dataset::{Dataset, DatasetConfig, Truth};
 use crate::network::{Inputs, Predictor};
 use crate::train::{BEST, Descent, LAST, REPLICAS, TrainError, Trainable, Trainer, gradients_of};
 
@@ -19,15 +19,12 @@ use super::loss::loss;
 use super::share::shared;
 use super::{Examples, HeldOutError, PredictorSettings, rollout_error};
 
-/// Number of graphs on which the feature scales are measured.
-const NORMALISER_GRAPHS: usize = 4096;
+/// Number of pushes on which the feature scales are measured.
+const NORMALISER_PUSHES: usize = 1024;
 
-/// Number of steps between updates of the network that precedes examples (see `Noise::lead`).
-const REFRESH: u64 = 50;
-
-/// Relative frequency of crowd examples. Frames then contain equally many objects of tool episodes
-/// and crowds.
-const CROWDS: f64 = 0.7;
+/// Relative frequencies of crowds, of which there are few, and of MuJoCo's pushes.
+const CROWDS: f64 = 0.3;
+const MUJOCO: f64 = 0.5;
 
 /// Trains a network in `folder`, see [`Trainer::run`].
 ///
@@ -40,8 +37,8 @@ pub fn train_predictor(
     folder: &FolderLock,
     progress: &dyn Progress,
 ) -> Result<Option<PathBuf>, TrainError> {
-    let examples = Examples::new(data.iter().map(|set| (set.episodes(), weight(set))));
-    let task = Task { settings, data, held_out, examples, lead: None };
+    let examples = Examples::new(data.iter().map(|set| (set, weight(set))));
+    let task = Task { settings, data, held_out, examples };
     let best = Trainer::open(task, folder)?.run(progress)?;
     for name in [BEST, LAST] {
         finish(&folder.path().join(name), settings.descent.steps, (data, held_out), progress)?;
@@ -72,7 +69,11 @@ fn finish(
 
 /// Returns the relative frequency of examples from this set.
 fn weight(set: &Dataset) -> f64 {
-    if set.config().preset.is_crowd() { CROWDS } else { 1.0 }
+    match set.config() {
+        config if config.preset.is_crowd() => CROWDS,
+        config if config.truth == Truth::Mujoco => MUJOCO,
+        _ => 1.0,
+    }
 }
 
 fn source(set: &Dataset) -> Source {
@@ -84,9 +85,7 @@ struct Task<'a> {
     settings: &'a PredictorSettings,
     data: &'a [Dataset],
     held_out: &'a [Dataset],
-    examples: Examples<'a>,
-    /// Network that precedes examples.
-    lead: Option<Forward>,
+    examples: Examples,
 }
 
 impl Trainable for Task<'_> {
@@ -110,8 +109,7 @@ impl Trainable for Task<'_> {
 
     fn scales(&self) -> Normaliser {
         let Self { settings, examples, .. } = self;
-        let key = (settings.seed, u64::MAX, 0);
-        let sample = examples.draw(&settings.noise, key, 0.0, NORMALISER_GRAPHS, None);
+        let sample = examples.draw((settings.seed, u64::MAX, 0), NORMALISER_PUSHES);
         Normaliser::measure(&Tables::PUSHES, &sample.batch)
     }
 
@@ -125,13 +123,12 @@ impl Trainable for Task<'_> {
         scales: &Normaliser,
         (step, replica): (u64, usize),
     ) -> candle_core::Result<(f64, Parameters)> {
-        let PredictorSettings { config, seed, ref noise, descent, .. } = *self.settings;
-        let (key, progress) = ((seed, step, replica as u64), step as f64 / descent.steps as f64);
+        let PredictorSettings { config, seed, descent } = *self.settings;
         let count = descent.batch / REPLICAS;
-        let drawn = self.examples.draw(noise, key, progress, count, self.lead.as_ref());
+        let drawn = self.examples.draw((seed, step, replica as u64), count);
         let network = Predictor::new(config, weights)?;
-        let predicted = network.forward(&Inputs::new(&drawn.batch, scales)?)?;
-        let loss = loss(&predicted, drawn.target, drawn.weight, count)?;
+        let outputs = network.forward(&Inputs::new(&drawn.batch, scales)?)?;
+        let loss = loss(&outputs, &drawn, count)?;
         gradients_of(&loss, network.variables())
     }
 
@@ -161,13 +158,5 @@ impl Trainable for Task<'_> {
             share: 1.0,
             doubt: None,
         }
-    }
-
-    fn refreshes(&self, step: u64) -> bool {
-        self.settings.noise.lead > 0 && step.is_multiple_of(REFRESH)
-    }
-
-    fn follow(&mut self, lead: &Parameters, scales: &Normaliser) {
-        self.lead = Some(Forward::of(&self.settings.config, scales, lead));
     }
 }

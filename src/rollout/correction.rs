@@ -1,0 +1,231 @@
+//! Corrections of a rolled-out push along its course.
+//!
+//! The analytic model rolls the push out first. The network then reads the graphs of its frames,
+//! and every frame t adds to the change of an object's pose
+//!
+//! ```text
+//! change(T) = sum over t up to T of length_t * C(frame t)
+//! ```
+//!
+//! where `length_t` is the length of the object's analytic motion in the frame and C is bounded. An
+//! object that does not move is not corrected, and a change grows along the path of the object. The
+//! corrections are not fed back into contacts: bodies are only moved out of each other, and joints
+//! are closed again.
+
+use crate::{
+    contact::{Bodies, project_joints},
+    geometry::{ContactPoint, Footprint, Pose, Vector, contact_points},
+    graph::{Correction, Corrections, READOUTS},
+    outcome::{Frame, Spread, Trajectory},
+    scene::State,
+};
+
+/// Overlap that remains between bodies after a correction, metres: as after a frame's solution.
+const SLACK: f64 = 2e-4;
+
+/// Number of rounds in which overlaps are removed.
+const ROUNDS: usize = 4;
+
+/// The motion of an object in a frame that the network reads: in the frame itself, or in the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Read {
+    /// Index of the node in the batch.
+    pub node: u32,
+    /// Index of the object in the scene.
+    pub object: u32,
+    /// Indices of the recorded frames before and after the motion.
+    pub frames: [u32; 2],
+    /// Length of the motion, see [`crate::graph::Node::length`], metres.
+    pub length: f64,
+    /// Unit vector of the tool's motion.
+    pub axis: Vector,
+    /// Length c of the object's limit surface, metres.
+    pub support: f64,
+}
+
+/// An analytic rollout with the places where the network reads it.
+#[derive(Clone, Debug)]
+pub struct Reading {
+    /// Analytic trajectory.
+    pub trajectory: Trajectory,
+    /// Motions that the network corrects, in order of time.
+    pub reads: Vec<Read>,
+}
+
+impl Read {
+    /// Returns the change of x, y (metres) and heading (radians) for this correction of the node.
+    pub fn change(&self, [along, across, turn]: [f64; 3]) -> [f64; 3] {
+        let (x, y) = (self.axis.x * self.length, self.axis.y * self.length);
+        [x * along - y * across, y * along + x * across, turn * self.length / self.support]
+    }
+}
+
+/// Sum of corrections of an object.
+#[derive(Clone, Copy, Debug, Default)]
+struct Change {
+    readouts: [[f64; 3]; READOUTS],
+    doubt: Option<Spread>,
+}
+
+impl Change {
+    fn add(&mut self, read: &Read, correction: &Correction, share: f64) {
+        for (sum, readout) in self.readouts.iter_mut().zip(correction.readouts) {
+            let change = read.change(readout);
+            (0..3).for_each(|k| sum[k] += share * change[k]);
+        }
+        if let Some([position, heading]) = correction.doubt {
+            let length = share * read.length;
+            let heading = length * heading / read.support;
+            *self.doubt.get_or_insert_default() += Spread { position: length * position, heading };
+        }
+    }
+
+    /// Returns the mean of the readouts: displacement and rotation.
+    fn mean(&self) -> (Vector, f64) {
+        let mean =
+            |k: usize| self.readouts.iter().map(|sum| sum[k]).sum::<f64>() / READOUTS as f64;
+        (Vector::new(mean(0), mean(1)), mean(2))
+    }
+
+    /// Returns the distance of the readouts from their mean.
+    fn apart(&self) -> Spread {
+        let [a, b] = self.readouts;
+        Spread {
+            position: (a[0] - b[0]).hypot(a[1] - b[1]) / 2.0,
+            heading: (a[2] - b[2]).abs() / 2.0,
+        }
+    }
+}
+
+impl Reading {
+    /// Returns the trajectory with `corrections` of all frames, among these bodies.
+    pub fn corrected(self, bodies: &Bodies, corrections: &Corrections) -> Trajectory {
+        let Self { mut trajectory, reads } = self;
+        let mut changes = vec![Change::default(); bodies.objects.len()];
+        let mut objects: Vec<usize> = reads.iter().map(|read| read.object as usize).collect();
+        objects.sort_unstable();
+        objects.dedup();
+        if objects.is_empty() {
+            return trajectory;
+        }
+        let of = |read: &Read| &corrections.nodes[read.node as usize];
+        let last = trajectory.frames.len().saturating_sub(1);
+        let mut done = 0;
+        for (n, frame) in trajectory.frames.iter_mut().enumerate() {
+            let complete = |read: &Read| n == last || read.frames[1] as usize <= n;
+            while let Some(read) = reads.get(done).filter(|read| complete(read)) {
+                changes[read.object as usize].add(read, of(read), 1.0);
+                done += 1;
+            }
+            // A longer step covers several recorded frames.
+            let begun = reads[done..].iter().take_while(|read| (read.frames[0] as usize) < n);
+            if begun.clone().next().is_none() {
+                apply(bodies, frame, &objects, &changes);
+                continue;
+            }
+            let mut partly = changes.clone();
+            for read in begun {
+                let [from, to] = read.frames.map(f64::from);
+                let share = (n as f64 - from) / (to - from);
+                partly[read.object as usize].add(read, of(read), share);
+            }
+            apply(bodies, frame, &objects, &partly);
+        }
+        for object in objects {
+            let Some(doubt) = changes[object].doubt else { continue };
+            let apart = changes[object].apart();
+            let [position, heading] = corrections.apart;
+            trajectory.spreads.resize(bodies.objects.len(), Spread::default());
+            trajectory.spreads[object] = Spread {
+                position: doubt.position + position * apart.position,
+                heading: doubt.heading + heading * apart.heading,
+            };
+        }
+        trajectory
+    }
+}
+
+/// Adds the changes of these objects to their poses, which then neither overlap nor leave joints.
+fn apply(bodies: &Bodies, frame: &mut Frame, objects: &[usize], changes: &[Change]) {
+    let Frame { tool, state, .. } = frame;
+    let mut moved = false;
+    for &object in objects {
+        let (shift, turn) = changes[object].mean();
+        moved |= shift != Vector::zeros() || turn != 0.0;
+        let pose = &mut state.poses[object];
+        pose.position += shift;
+        pose.heading += turn;
+    }
+    if moved {
+        separate(bodies, state, tool, objects, changes);
+        project_joints(bodies, state, |object| objects.contains(&object));
+    }
+}
+
+/// Moves corrected objects out of other bodies, by at most the length of their corrections.
+///
+/// All pairs are treated at once, so that the result does not depend on their order. Two corrected
+/// objects share a shift by their sizes.
+fn separate(
+    bodies: &Bodies,
+    state: &mut State,
+    tool: &Pose,
+    objects: &[usize],
+    changes: &[Change],
+) {
+    let depth = |first: (&Footprint, &Pose), second: (&Footprint, &Pose)| -> Option<Vector> {
+        let ContactPoint { gap, normal, .. } = contact_points(first, second, -SLACK).0[0]?;
+        Some(-(gap + SLACK) * normal)
+    };
+    let budget = |object: usize| {
+        let (shift, turn) = changes[object].mean();
+        shift.norm() + bodies.objects[object].radius * turn.abs()
+    };
+    let mut used = vec![0.0; objects.len()];
+    for _ in 0..ROUNDS {
+        let mut shifts = vec![Vector::zeros(); objects.len()];
+        for (k, &object) in objects.iter().enumerate() {
+            let body = &bodies.objects[object];
+            let own = (&body.footprint, &state.poses[object]);
+            for (other, with) in bodies.objects.iter().enumerate() {
+                let joined = bodies.mechanisms[other] == bodies.mechanisms[object];
+                let place = objects.binary_search(&other).ok();
+                // A pair of corrected objects is treated once.
+                if joined || !body.meets(with.span) || place.is_some() && other < object {
+                    continue;
+                }
+                let Some(out) = depth(own, (&with.footprint, &state.poses[other])) else {
+                    continue;
+                };
+                match place {
+                    None => shifts[k] += out,
+                    Some(place) => {
+                        let share = with.radius / (body.radius + with.radius);
+                        shifts[k] += share * out;
+                        shifts[place] -= (1.0 - share) * out;
+                    }
+                }
+            }
+            for obstacle in bodies.obstacles.iter().filter(|one| body.meets(one.span)) {
+                let with = (&obstacle.footprint, &obstacle.pose);
+                shifts[k] += depth(own, with).unwrap_or_default();
+            }
+            for part in bodies.parts.iter().filter(|part| body.meets(part.span)) {
+                let with = (&part.footprint, &(*tool * part.pose));
+                shifts[k] += depth(own, with).unwrap_or_default();
+            }
+        }
+        if shifts.iter().all(|shift| *shift == Vector::zeros()) {
+            return;
+        }
+        for ((&object, shift), used) in objects.iter().zip(&shifts).zip(&mut used) {
+            let length = shift.norm();
+            let left = budget(object) - *used;
+            if length > 0.0 && left > 0.0 {
+                let share = (left / length).min(1.0);
+                state.poses[object].position += share * shift;
+                *used += share * length;
+            }
+        }
+    }
+}
