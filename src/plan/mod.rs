@@ -41,7 +41,7 @@ pub use evaluate::{Evaluation, evaluate};
 pub use harden::{HardenSettings, harden};
 pub use infeasible::Infeasible;
 pub use qp::{QpProblem, QpSolution, QpSolver, QpStatus};
-pub use refine::{FOUND_RADIUS, REFINABLE, RefineSettings, refine};
+pub use refine::{REFINABLE, RefineSettings, refine};
 pub use refined::Refined;
 pub use rollouts::Rollouts;
 pub use score::{bare, behind, is_behind};

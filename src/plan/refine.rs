@@ -19,7 +19,7 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use crate::progress::Progress;
-use crate::{scene::Situation, task::Task};
+use crate::task::Task;
 
 use super::goal_errors::{apart, asked, beside, farthest, goal_errors, largest};
 use super::linear::slopes;
@@ -28,12 +28,12 @@ use super::score::{bare, behind, is_behind};
 use super::supports::{Ends, Supports};
 use super::{
     Candidate, Evaluation, Margins, QpProblem, QpSolver, QpStatus, RefineStatistics, Refined,
-    Rollouts, Workspace, evaluate, preferred,
+    Rollouts, Workspace, evaluate,
 };
 
 /// Initial trust radius for search results, in steps. An early stop has an error of up to a frame,
 /// and an offset of up to half the coarse spacing.
-pub const FOUND_RADIUS: f64 = 2.0;
+const FOUND_RADIUS: f64 = 2.0;
 
 /// Largest error that refinement can correct, in units of the tolerance, because it moves final
 /// poses by centimetres.
@@ -75,11 +75,6 @@ pub struct RefineSettings {
     pub enough: usize,
     /// Number of rollouts after which no further round begins.
     pub rollouts: usize,
-    /// Number of candidates that take part in the rounds, the best before the first round. The
-    /// other candidates are only evaluated.
-    pub short_list: usize,
-    /// Initial trust radius, in steps.
-    pub radius: f64,
 }
 
 struct Work {
@@ -88,8 +83,6 @@ struct Work {
     /// Final poses of the best evaluation for plausible support models.
     ends: Ends,
     radius: f64,
-    /// Whether the candidate is on the short list.
-    listed: bool,
     random: Pcg64,
 }
 
@@ -128,12 +121,10 @@ pub fn refine(
                 best,
             },
             ends,
-            radius: settings.radius,
-            listed: true,
+            radius: FOUND_RADIUS,
             random: Pcg64::seed_from_u64(settings.seed.wrapping_add(index as u64)),
         })
         .collect();
-    shorten(&mut work, settings.short_list, workspace, rollouts.situation());
     for round in 0..settings.rounds {
         if progress.cancelled() {
             break;
@@ -155,15 +146,6 @@ pub fn refine(
     work.into_iter().map(|w| w.refined).collect()
 }
 
-/// Keeps only the best `most` candidates open, in the order of [`preferred`]. Ties keep their
-/// order.
-fn shorten(work: &mut [Work], most: usize, workspace: &Workspace, situation: &Situation) {
-    let mut order: Vec<usize> = (0..work.len()).collect();
-    let refined = |k: usize| &work[k].refined;
-    order.sort_by(|&a, &b| preferred(refined(a), refined(b), workspace, situation));
-    order.into_iter().skip(most).for_each(|k| work[k].listed = false);
-}
-
 impl Work {
     /// Returns the score of the centre of the best evaluation's final poses.
     fn score(&self) -> f64 {
@@ -177,7 +159,7 @@ impl Work {
     /// Returns `true` if the `left` remaining rounds can be worth their rollouts.
     fn is_open(&self, left: usize) -> bool {
         let score = bare(self.score());
-        if !self.listed || self.is_good() || !score.is_finite() || self.radius <= RADII.0 {
+        if self.is_good() || !score.is_finite() || self.radius <= RADII.0 {
             return false;
         }
         let [.., before, _] = self.refined.rounds[..] else { return true };

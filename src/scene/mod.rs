@@ -61,7 +61,7 @@ pub use joint_trajectory::{JointPoint, JointTrajectory, MAX_JOINTS};
 pub use lever::{Blade, LeverFeatures, LeverScene, Plate, Slab, Weight, stands_on};
 pub use model::{
     Assumptions, CORRECTED, Engine, FRAME_TRAVEL, JointBelief, ModelKind, ModelPart, ModelSpec,
-    Models, Rate, SpecError, Stride,
+    Rate, SpecError, Stride,
 };
 pub use near::{JOINABLE, NearPair, near_pairs, pairs_within};
 pub use object::{Object, Whole};

@@ -90,7 +90,7 @@ impl<'a> Blackboard<'a> {
     pub fn deepen(&mut self, search: &mut Search<'a>) -> Candidates {
         let (began, pushes) = (Instant::now(), search.depth() + 1);
         self.reporter.stage_of("search", pushes);
-        let mut found = search.deepen(&mut self.refiner.screening, self.query.progress);
+        let mut found = search.deepen(&mut self.refiner.rollouts, self.query.progress);
         // A plan that ignores one of several goals is not yet a candidate.
         if self.query.task.goals.len() > 1 {
             found.retain(|one| bare(one.score) <= REFINABLE);

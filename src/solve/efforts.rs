@@ -1,13 +1,13 @@
-//! Efforts: models and budgets of each level of planning.
+//! Efforts: model and budgets of each level of planning.
 //!
 //! `pushplan-lab tradeoff` measures robustness and cost of levels, and
 //! `crates/lab/results/tradeoff.json` holds the published measurement. A test compares the rows
 //! below with that file. If they differ, the published page must be marked stale; if they agree, no
-//! other level with the network as final model may be both cheaper and more robust.
+//! other level with the network may be both cheaper and more robust.
 
 use std::num::NonZeroU16;
 
-use crate::scene::{Engine, ModelKind, ModelSpec, Models, Rate};
+use crate::scene::{Engine, ModelKind, ModelSpec, Rate};
 
 use super::{Effort, LeverSettings, Settings};
 
@@ -15,10 +15,10 @@ use super::{Effort, LeverSettings, Settings};
 /// model's, and it costs a quarter of the engine at its default step.
 const CROWD_ENGINE: ModelKind = planar(60);
 
-/// Maximum number of objects in motion for which the analytic model is clearly cheaper than
+/// Maximum number of objects in motion for which the network's analytic model is clearly cheaper than
 /// [`CROWD_ENGINE`]. It is the intersection of their costs, interpolated in logarithms between the
 /// measured numbers of objects, or the largest of these without an intersection.
-const FEW_FOR_PRIOR: u16 = 9;
+const FEW_FOR_NETWORK: u16 = 9;
 
 /// Returns the 2-D engine at this many steps per second, at least one.
 const fn planar(rate: u16) -> ModelKind {
@@ -34,8 +34,6 @@ const COARSE: Settings = Settings {
     refined: 8,
     refine_rounds: 4,
     refine_extra: 2,
-    decided_rounds: 1,
-    short_list: 4,
     verified_at_once: 2,
     verify_batches: 4,
     replays: 4,
@@ -50,8 +48,6 @@ const MEDIUM: Settings = Settings {
     refined: 24,
     refine_rounds: 8,
     refine_extra: 4,
-    decided_rounds: 2,
-    short_list: 4,
     verified_at_once: 2,
     verify_batches: 12,
     replays: 8,
@@ -59,20 +55,20 @@ const MEDIUM: Settings = Settings {
 };
 
 impl Effort {
-    /// Returns the screening model, the final model, the budgets, and the number of perturbed
-    /// replays of the winning plan in each engine. More replays than a level was measured with do
-    /// not improve its plans, but measure their robustness more precisely.
-    const fn level(self) -> (ModelKind, ModelKind, Settings, usize) {
+    /// Returns the budgets, and the number of perturbed replays of the winning plan in each engine.
+    /// More replays than a level was measured with do not improve its plans, but measure their
+    /// robustness more precisely.
+    const fn level(self) -> (Settings, usize) {
         match self {
-            Effort::Draft => (ModelKind::PRIOR, ModelKind::NETWORK, COARSE, 4),
-            Effort::Standard => (ModelKind::PRIOR, ModelKind::NETWORK, MEDIUM, 8),
-            Effort::Thorough => (ModelKind::NETWORK, ModelKind::NETWORK, MEDIUM, 16),
+            Effort::Draft => (COARSE, 4),
+            Effort::Standard => (MEDIUM, 8),
+            Effort::Thorough => (MEDIUM, 16),
         }
     }
 
     /// Returns the budgets of the level and the number of replays that measure robustness.
     pub fn settings(self) -> Settings {
-        let (.., settings, replays) = self.level();
+        let (settings, replays) = self.level();
         let levers = match self {
             Effort::Draft => LeverSettings::DRAFT,
             Effort::Standard => LeverSettings::STANDARD,
@@ -81,13 +77,9 @@ impl Effort {
         Settings { replays, levers, ..settings }
     }
 
-    /// Returns the effect models of the level: the analytic model screens, and the network is the
-    /// final model. The 2-D engine replaces both for pushes that move so many objects that the
-    /// analytic model is no longer clearly cheaper.
-    pub fn models(self) -> Models {
-        let (screened, decided, ..) = self.level();
-        let [screened, decided] = [screened, decided]
-            .map(|model| ModelSpec::of(model).up_to(FEW_FOR_PRIOR).or(CROWD_ENGINE));
-        Models { screened, decided }
+    /// Returns the effect model of the level: the network. The 2-D engine replaces it for pushes that
+    /// move so many objects that the network is no longer clearly cheaper.
+    pub fn model(self) -> ModelSpec {
+        ModelSpec::of(ModelKind::NETWORK).up_to(FEW_FOR_NETWORK).or(CROWD_ENGINE)
     }
 }

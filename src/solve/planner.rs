@@ -11,7 +11,7 @@ use crate::effect::{
 use crate::geometry::Pose;
 use crate::{
     outcome::{Outcome, Record, Trajectory, Warning, in_turn},
-    scene::{ModelKind, Models, Situation, State, TableFit, Tool},
+    scene::{ModelKind, ModelSpec, Situation, State, TableFit, Tool},
     task::{Plan, Task, ToolMotion},
 };
 
@@ -19,8 +19,7 @@ use super::check::check;
 use super::error::SolveError;
 use super::settings::{Effort, Settings};
 
-/// Planner of tools and pushes for tasks. It has one effort and one effect model, or a screening
-/// model and a final model.
+/// Planner of tools and pushes for tasks, with one effort and one effect model.
 ///
 /// ```
 /// use pushplan::{Effort, PlanStatus, Planner, Simulated, Simulator, Task, ToolLibrary};
@@ -36,8 +35,6 @@ use super::settings::{Effort, Settings};
 /// ```
 pub struct Planner {
     model: Fallback,
-    /// Screening model, if it differs from the final model.
-    screen: Option<Fallback>,
     out_of_range: OutOfRange,
     settings: Settings,
     seed: u64,
@@ -48,7 +45,6 @@ pub struct Planner {
 /// Builder of a [`Planner`].
 pub struct PlannerBuilder {
     model: Arc<dyn EffectModel>,
-    screen: Option<Arc<dyn EffectModel>>,
     out_of_range: OutOfRange,
     settings: Settings,
     seed: u64,
@@ -98,19 +94,11 @@ impl PlannerBuilder {
         self
     }
 
-    /// Sets a cheaper model for the many rollouts of the search and the first rounds of refinement.
-    /// The planner's own model is then the final model.
-    pub fn screened_by(mut self, screen: impl EffectModel + 'static) -> Self {
-        self.screen = Some(Arc::new(screen));
-        self
-    }
-
     /// Returns the planner.
     pub fn build(self) -> Planner {
-        let Self { model, screen, out_of_range, settings, seed, time_limit, fit } = self;
-        let trusted = |model| Fallback::new(model).out_of_range(out_of_range);
-        let (model, screen) = (trusted(model), screen.map(trusted));
-        Planner { model, screen, out_of_range, settings, seed, time_limit, fit }
+        let Self { model, out_of_range, settings, seed, time_limit, fit } = self;
+        let model = Fallback::new(model).out_of_range(out_of_range);
+        Planner { model, out_of_range, settings, seed, time_limit, fit }
     }
 }
 
@@ -119,29 +107,25 @@ impl Planner {
     pub fn builder(model: impl EffectModel + 'static) -> PlannerBuilder {
         let settings = Effort::default().settings();
         let (model, out_of_range) = (Arc::new(model), OutOfRange::default());
-        let (screen, seed, time_limit, fit) = (None, 0, None, None);
-        PlannerBuilder { model, screen, out_of_range, settings, seed, time_limit, fit }
+        let (seed, time_limit, fit) = (0, None, None);
+        PlannerBuilder { model, out_of_range, settings, seed, time_limit, fit }
     }
 
-    /// Starts building a planner with the models that `models` describes.
+    /// Starts building a planner with the model that `spec` describes.
     ///
     /// # Errors
-    /// Returns [`ModelError`] if the models need weights that cannot be used.
-    pub fn with_models(models: &Models) -> Result<PlannerBuilder, ModelError> {
-        Self::fitted(models, None)
+    /// Returns [`ModelError`] if the model needs weights that cannot be used.
+    pub fn with_model(spec: &ModelSpec) -> Result<PlannerBuilder, ModelError> {
+        Self::fitted(spec, None)
     }
 
     /// Starts building a planner for a table to which a network has been fitted.
     ///
     /// # Errors
-    /// Returns [`ModelError`] as [`Self::with_models`] does, or for a fit of another network.
-    pub fn fitted(models: &Models, fit: Option<&TableFit>) -> Result<PlannerBuilder, ModelError> {
-        let planner = Self::builder(EffectModels::fitted(&models.decided, fit)?);
-        let planner = PlannerBuilder { fit: fit.cloned(), ..planner };
-        Ok(match models.is_one() {
-            true => planner,
-            false => planner.screened_by(EffectModels::fitted(&models.screened, fit)?),
-        })
+    /// Returns [`ModelError`] as [`Self::with_model`] does, or for a fit of another network.
+    pub fn fitted(spec: &ModelSpec, fit: Option<&TableFit>) -> Result<PlannerBuilder, ModelError> {
+        let planner = Self::builder(EffectModels::fitted(spec, fit)?);
+        Ok(PlannerBuilder { fit: fit.cloned(), ..planner })
     }
 
     /// Returns this planner with another table fit.
@@ -150,7 +134,7 @@ impl Planner {
     /// Returns [`ModelError`] as [`Self::fitted`] does.
     pub fn fitted_anew(&self, fit: &TableFit) -> Result<Self, ModelError> {
         let Self { out_of_range, settings, seed, time_limit, .. } = *self;
-        let built = Self::fitted(&self.models(), Some(fit))?
+        let built = Self::fitted(self.model.spec(), Some(fit))?
             .settings(settings)
             .seed(seed)
             .out_of_range(out_of_range)
@@ -158,23 +142,17 @@ impl Planner {
         Ok(Self { time_limit, ..built })
     }
 
-    /// Starts building the planner of an effort, including its effect models.
+    /// Starts building the planner of an effort, including its effect model.
     ///
     /// # Errors
     /// Returns [`ModelError`] if the library was built with a damaged weights file.
     pub fn for_effort(effort: Effort) -> Result<PlannerBuilder, ModelError> {
-        Ok(Self::with_models(&effort.models())?.effort(effort))
+        Ok(Self::with_model(&effort.model())?.effort(effort))
     }
 
-    /// Returns the final model.
+    /// Returns the effect model.
     pub fn model(&self) -> &dyn EffectModel {
         &self.model
-    }
-
-    /// Returns the effect model of the many rollouts: the screening model if there is one,
-    /// otherwise the final model.
-    pub fn screen(&self) -> &dyn EffectModel {
-        self.screen.as_ref().unwrap_or(&self.model)
     }
 
     /// Returns the table fit.
@@ -187,21 +165,10 @@ impl Planner {
         self.time_limit
     }
 
-    /// Returns `true` if the screening model differs from the final model.
-    pub(super) fn is_screened(&self) -> bool {
-        self.screen.is_some()
-    }
-
-    /// Returns a planner for a coarse search with the screening model.
+    /// Returns a planner for a coarse search.
     pub(super) fn first_look(&self) -> Self {
-        let model = self.screen.as_ref().unwrap_or(&self.model).clone();
-        let settings = Effort::Draft.settings();
-        Self { model, screen: None, settings, time_limit: None, fit: None, ..*self }
-    }
-
-    /// Returns the models of the planner.
-    pub fn models(&self) -> Models {
-        Models::from(self.model.spec().clone()).screened_by(self.screen().spec().clone())
+        let (model, settings) = (self.model.clone(), Effort::Draft.settings());
+        Self { model, settings, time_limit: None, fit: None, ..*self }
     }
 
     /// Returns the budgets.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::plan::{FOUND_RADIUS, RefineSettings, Search, Workspace};
+use crate::plan::{RefineSettings, Search, Workspace};
 use crate::progress::Progress;
 use crate::scene::{Situation, Tool};
 use crate::task::{Goal, Job, Task};
@@ -62,8 +62,6 @@ impl<'a> Query<'a> {
             seed: self.planner.seed().wrapping_mul(0x9E37_79B9).wrapping_add(pushes as u64) << 16,
             enough: self.at_once(),
             rollouts: self.refine_rollouts(),
-            short_list: usize::MAX,
-            radius: FOUND_RADIUS,
         }
     }
 
@@ -72,7 +70,7 @@ impl<'a> Query<'a> {
         let errors = self.tools.iter().map(|tool| {
             let start = &self.situation.start;
             let job = Job::new(self.situation, typical(self.task, start, tool));
-            error_p95(self.planner.screen(), self.situation, &job).unwrap_or(f64::INFINITY)
+            error_p95(self.planner.model(), self.situation, &job).unwrap_or(f64::INFINITY)
         });
         let error = errors.fold(0.0, f64::max).min(MOST_ROOM_FOR_MODEL);
         let settings = self.planner.settings().search(error);

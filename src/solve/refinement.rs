@@ -22,22 +22,6 @@ pub(super) fn refined(
     keep(board, refined, aims)
 }
 
-/// Refines modified candidates of replayed plans, as [`refined`] does.
-pub(super) fn refined_again(
-    board: &mut Blackboard,
-    candidates: &[Candidate],
-    aims: &[Goal],
-    pushes: usize,
-) -> Vec<usize> {
-    if board.refiner.deciding.is_none() {
-        return self::refined(board, candidates, aims, pushes);
-    }
-    board.reporter.stage_of("refine", pushes);
-    // Replayed plans are not screened again.
-    let refined = board.refiner.decide(&board.query, candidates, aims, pushes);
-    keep(board, refined, aims)
-}
-
 /// Stores candidates refined towards `aims` and returns the indices of the attempts worth
 /// verifying, best first.
 fn keep(board: &mut Blackboard, mut refined: Vec<Refined>, aims: &[Goal]) -> Vec<usize> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::outcome::{Verdict, Warning};
 use crate::plan::{Search, bare};
 use crate::progress::Instant;
-use crate::scene::{Engine, Models, Tool};
+use crate::scene::{Engine, Tool};
 use crate::sim::LeverSimulator;
 use crate::task::{Plan, Step};
 
@@ -44,11 +44,10 @@ pub(super) fn solution(mut board: Blackboard, began: Instant) -> Solution {
     Solution {
         status,
         stopped: query.progress.cancelled(),
-        models: match statistics.levers {
-            None => query.planner.models(),
-            // The coarse simulation is the final model of lever-ups.
-            Some(_) => Models::from(LeverSimulator::COARSE.spec())
-                .screened_by(query.planner.screen().spec().clone()),
+        model: match statistics.levers {
+            None => query.planner.model().spec().clone(),
+            // Lever-ups are ranked by the coarse simulation.
+            Some(_) => LeverSimulator::COARSE.spec(),
         },
         plans,
         tools: query.tools.iter().map(|tool| Tool::clone(tool)).collect(),
@@ -176,15 +175,11 @@ fn is_nearer(query: &Query, attempt: &Attempt) -> bool {
 }
 
 fn push_statistics(board: &Blackboard, plans: usize) -> Statistics {
-    let screened = board.refiner.screening.used();
-    let deciding = board.refiner.deciding.as_ref().map(|deciding| deciding.used());
-    let decided = plans + deciding.unwrap_or(screened);
     let search = board.search.as_ref();
     Statistics {
         search: search.map(|search| search.statistics().clone()).unwrap_or_default(),
         refinement: board.refiner.statistics.clone(),
-        rollouts: decided + deciding.map_or(0, |_| screened),
-        decided,
+        rollouts: plans + board.refiner.rollouts.used(),
         verified: board.verification.verified,
         depth: search.map_or(0, Search::depth),
         timing: board.timing,

@@ -12,7 +12,7 @@ use crate::task::{Demand, End, Goal, Task};
 use super::attempts::{Attempt, Attempts, Replays};
 use super::blackboard::{Blackboard, Candidates};
 use super::pattern::PushPattern;
-use super::refinement::{refined, refined_again};
+use super::refinement::refined;
 
 /// Error of a replay in tolerances above which a plan is refuted. With a smaller error it may work
 /// with another tool.
@@ -148,7 +148,7 @@ fn set_down_farther(board: &mut Blackboard, failed: &[usize], pushes: usize) -> 
     let goals = board.query.goals();
     match wider.is_empty() {
         true => Vec::new(),
-        false => refined_again(board, &wider, &goals, pushes),
+        false => refined(board, &wider, &goals, pushes),
     }
 }
 
@@ -175,7 +175,7 @@ fn aim_again(board: &mut Blackboard, failed: &[usize], count: usize, pushes: usi
             let kept =
                 aims.zip(next_aims).map(|((_, aimed), next)| next.unwrap_or_else(|| aimed.clone()));
             let kept: Vec<Goal> = kept.collect();
-            next.extend(refined_again(board, &[candidate], &kept, pushes));
+            next.extend(refined(board, &[candidate], &kept, pushes));
         }
     }
     next

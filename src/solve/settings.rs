@@ -61,15 +61,6 @@ pub struct Settings {
     /// Number of random samples per round in addition to two for each parameter. They average out
     /// contact noise.
     pub refine_extra: usize,
-    /// Number of the last refinement rounds, which use the final model if it differs from the
-    /// screening model; the screening model makes the earlier rounds. Older measured files may lack
-    /// this field.
-    #[serde(default)]
-    pub decided_rounds: usize,
-    /// Number of candidates in these rounds: the best after the final model has predicted all of
-    /// them.
-    #[serde(default)]
-    pub short_list: usize,
     /// Number of plans verified together. The nearest two nearly always hold one that works, and
     /// replays are a third to a half of the cost. Numbers above two are reduced if there are more
     /// than four objects.
@@ -109,8 +100,6 @@ impl Settings {
         refined: 3,
         refine_rounds: 2,
         refine_extra: 0,
-        decided_rounds: 1,
-        short_list: 1,
         verified_at_once: 1,
         verify_batches: 1,
         replays: 0,

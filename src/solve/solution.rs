@@ -11,7 +11,7 @@ use crate::plan::{RefineStatistics, ScoredPush, SearchStatistics};
 use crate::verify::{Verifier, VerifySettings};
 use crate::{
     outcome::{Outcome, Trajectory, Verdict, Warning},
-    scene::{JointTrajectory, Models, Physics, Situation, Tool},
+    scene::{JointTrajectory, ModelSpec, Physics, Situation, Tool},
     task::{Plan, Task},
 };
 
@@ -144,11 +144,8 @@ pub struct Statistics {
     pub search: SearchStatistics,
     /// Statistics of the refinement.
     pub refinement: RefineStatistics,
-    /// Number of rollouts of the effect models.
+    /// Number of rollouts of the effect model.
     pub rollouts: usize,
-    /// Number of rollouts by the final model; all if no other model screens.
-    #[serde(default)]
-    pub decided: usize,
     /// Number of plans replayed in the simulator.
     pub verified: usize,
     /// Number of pushes of the longest plans searched.
@@ -164,7 +161,6 @@ impl Statistics {
     /// Adds the cost of earlier work on the same task.
     pub(super) fn add(&mut self, before: &Self) {
         self.rollouts += before.rollouts;
-        self.decided += before.decided;
         self.verified += before.verified;
         let (timing, spent) = (&mut self.timing, &before.timing);
         timing.search += spent.search;
@@ -191,8 +187,8 @@ pub struct Solution {
     /// Whether the search was stopped early by its time limit or from outside, so that the plans
     /// are the best found until then.
     pub stopped: bool,
-    /// Screening and final model.
-    pub models: Models,
+    /// Effect model.
+    pub model: ModelSpec,
     /// Ranked plans, best first. Empty only if no push can be made at all.
     pub plans: Vec<RankedPlan>,
     /// Offered tools; candidates name them by index.

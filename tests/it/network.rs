@@ -5,6 +5,7 @@ use std::sync::Arc;
 use pushplan::{
     effect::{EffectModel, Network},
     geometry::{Pose, Shape, Vector},
+    graph::Corrections,
     network::{
         Buffers, Card, ErrorCard, Forward, LeverCard, PredictorCard, PredictorWeights, Weights,
         WeightsError,
@@ -119,11 +120,11 @@ fn a_golden_forward_pass() {
     let weights = weights(32);
     let mut state = scene().start();
     state.velocities[1] = Velocity { linear: Vector::new(0.05, 0.02), angular: 0.4 };
-    let mut corrections = Vec::new();
+    let mut corrections = Corrections::default();
     let batch = batch(&scene(), &state, &stroke());
     Forward::new(&weights).run(&batch, &mut Buffers::default(), &mut corrections);
-    assert_eq!(corrections.len(), GOLDEN.len());
-    let found = corrections.iter().flat_map(|correction| &correction.output);
+    assert_eq!(corrections.nodes.len(), GOLDEN.len());
+    let found = corrections.nodes.iter().flat_map(|correction| correction.readouts.concat());
     for (found, golden) in found.zip(GOLDEN.iter().flatten()) {
         assert!((found - golden).abs() < 1e-4, "{corrections:?}");
     }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use pushplan::effect::Simulated;
 use pushplan::geometry::{Pose, Shape, Vector, clearance, travel_to_contact};
 use pushplan::plan::{
-    Candidate, CandidatePush, FOUND_RADIUS, Infeasible, RefineSettings, RefineStatistics, Rollouts,
+    Candidate, CandidatePush, Infeasible, RefineSettings, RefineStatistics, Rollouts,
     STAND_OFF, Search, SearchSettings, Start, Workspace, evaluate, refine,
 };
 use pushplan::progress::NoProgress;
@@ -327,8 +327,6 @@ fn refinement_never_makes_a_candidate_worse() {
             seed: 1,
             enough: 6,
             rollouts: 1000,
-            short_list: usize::MAX,
-            radius: FOUND_RADIUS,
         };
         let mut statistics = RefineStatistics::default();
         let refined =

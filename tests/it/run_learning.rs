@@ -30,8 +30,8 @@ fn some_fit() -> TableFit {
 #[test]
 fn pushes_of_a_run_teach_the_network_to_the_same_bits_after_an_interruption() {
     let (task, library, given) = (shipped("pull-back-twice"), library(), some_fit());
-    let models = Effort::Draft.models();
-    let planner = Planner::fitted(&models, Some(&given)).expect("its own network");
+    let model = Effort::Draft.model();
+    let planner = Planner::fitted(&model, Some(&given)).expect("its own network");
     let planner = planner.effort(Effort::Draft).build();
     let runner = Runner::new(&planner, &library).learning(Some(given.clone())).expect("a network");
     let json = |trace: &Trace| serde_json::to_string(trace).expect("JSON");
@@ -56,7 +56,7 @@ fn pushes_of_a_run_teach_the_network_to_the_same_bits_after_an_interruption() {
 #[test]
 fn pushes_that_the_arm_cannot_begin_teach_nothing() {
     let (task, library, given) = (shipped("pull-back"), library(), some_fit());
-    let planner = Planner::fitted(&Effort::Draft.models(), Some(&given)).expect("its network");
+    let planner = Planner::fitted(&Effort::Draft.model(), Some(&given)).expect("its network");
     let planner = planner.effort(Effort::Draft).build();
     let runner = Runner::new(&planner, &library).learning(Some(given.clone())).expect("a network");
     let mut truth = Truth::stated(&task.scene, 1);

@@ -1,8 +1,7 @@
 //! The planner from end to end, with the 2-D engine as effect model.
 
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
 
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::effect::{EffectModel, Job, Quantiles, Simulated, Trust};
@@ -12,7 +11,7 @@ use pushplan::sim::Simulator;
 use pushplan::solve::{Effort, PlanStatus, Planner, Settings, Solution};
 use pushplan::{
     outcome::{Frame, Record, Trajectory},
-    scene::{Engine, Joint, JointKind, ModelKind, ModelSpec, Models, Scene, Situation},
+    scene::{Engine, Joint, JointKind, ModelKind, ModelSpec, Scene, Situation},
     task::{Task, ToolChoice},
 };
 
@@ -95,59 +94,17 @@ fn a_plan_that_ends_beside_the_goal_in_3d_is_aimed_as_far_on_the_other_side() {
     assert!(Engine::ALL.iter().all(|e| verdict.nominal(*e).is_some_and(|e| e.outcome.reached)));
 }
 
-/// Model that counts its rollouts.
-struct Counted<M>(M, Arc<AtomicUsize>);
-
-impl<M: EffectModel> EffectModel for Counted<M> {
-    fn spec(&self) -> &ModelSpec {
-        self.0.spec()
-    }
-
-    fn trust(&self, scene: &Scene, job: &Job) -> Trust {
-        self.0.trust(scene, job)
-    }
-
-    fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
-        self.1.fetch_add(jobs.len(), Ordering::Relaxed);
-        self.0.rollout(scene, jobs, record)
-    }
-}
-
 #[test]
-fn the_final_model_corrects_the_screening_model() {
-    let (task, library) = shipped("pull-back.yaml");
-    let planar = || Simulated::new(Simulator::planar());
-    let off = Vector::new(0.01, 0.015);
-    let [screened, decided] = [(); 2].map(|()| Arc::new(AtomicUsize::new(0)));
-    let solution = Planner::builder(Counted(planar(), decided.clone()))
-        .screened_by(Counted(Beside(planar(), off), screened.clone()))
-        .build()
-        .solve(&task, &library)
-        .unwrap();
-    assert_eq!(solution.status, PlanStatus::Solved);
-    let best = solution.best().unwrap();
-    assert_eq!(best.refinement.aimed_at, None, "no replay had to measure its error");
-    assert!(best.outcome.error() < 0.3 * off.norm(), "{}", best.outcome.error());
-    assert!(best.refinement.after < 0.3 * off.norm(), "{}", best.refinement.after);
-    let [screened, decided] = [screened, decided].map(|count| count.load(Ordering::Relaxed));
-    let statistics = &solution.statistics;
-    assert_eq!((statistics.rollouts, statistics.decided), (screened + decided, decided));
-    assert!(3 * decided < screened, "a short list: {decided} of {screened}");
-}
-
-#[test]
-fn by_default_the_prior_screens_and_the_network_decides() {
+fn the_network_makes_every_rollout_of_a_solution() {
     let (task, library) = shipped("pull-back.yaml");
     for effort in [Effort::Draft, Effort::Standard] {
         let planner = Planner::for_effort(effort).unwrap().build();
         let solution = planner.solve(&task, &library).unwrap();
         let first = |spec: &ModelSpec| spec.first().kind.clone();
-        let Models { screened, decided } = &solution.models;
-        assert_eq!([screened, decided].map(first), [ModelKind::PRIOR, ModelKind::NETWORK]);
+        assert_eq!(first(&solution.model), ModelKind::NETWORK);
         let made = solution.plans.iter().filter(|ranked| !ranked.plan.is_empty());
         assert!(made.map(|ranked| first(&ranked.predicted.by)).all(|by| by == ModelKind::NETWORK));
     }
-    assert!(Effort::Thorough.models().is_one());
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pushplan::asset::ToolLibrary;
 use pushplan::effect::{EffectModel, EffectModels, Network, Prior};
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::graph::{Batch, GIVEN};
+use pushplan::graph::{Batch, Corrections, GIVEN};
 use pushplan::network::{Buffers, Forward};
 use pushplan::{
     outcome::Record,
@@ -121,9 +121,9 @@ fn parts_with_separate_rows_are_equal_to_the_bit() {
     assert!(apart.given_count() > whole.given_count() && whole.given_count() > 0);
     let forward = Forward::new(&weights);
     let run = |batch: &Batch| {
-        let mut corrections = Vec::new();
+        let mut corrections = Corrections::default();
         forward.run(batch, &mut Buffers::default(), &mut corrections);
-        corrections
+        corrections.nodes
     };
     assert_eq!(run(&whole), run(&apart));
 

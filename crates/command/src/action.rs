@@ -8,7 +8,7 @@ use clap::Args;
 use pushplan::asset::ToolLibrary;
 use pushplan::solve::{ActionError, ManualLever, ManualPush, manual_lever, manual_plan};
 use pushplan::{
-    scene::{Models, Situation, Tool},
+    scene::{ModelSpec, Situation, Tool},
     task::{Plan, Task},
 };
 use pushplan_report::{Origin, TaskSource};
@@ -41,8 +41,8 @@ impl LibraryArgs {
         })
     }
 
-    /// Returns the sources of a page: these tools, the task and, if given, the models.
-    pub fn origin(&self, task: TaskSource, model: Option<Models>) -> Origin {
+    /// Returns the sources of a page: these tools, the task and, if given, the model.
+    pub fn origin(&self, task: TaskSource, model: Option<ModelSpec>) -> Origin {
         let shown = |folder: &PathBuf| folder.display().to_string();
         Origin {
             task,

@@ -8,7 +8,7 @@ use pushplan::asset::{ToolLibrary, load_world};
 use pushplan::effect::{EffectModels, OutOfRange};
 use pushplan::solve::{Effort, Planner};
 use pushplan::{
-    scene::Models,
+    scene::ModelSpec,
     task::{Task, Truth},
 };
 use pushplan_act::act::{
@@ -62,7 +62,7 @@ pub struct RunArgs {
     #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "draft")]
     effort: Effort,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
-    model: Option<Models>,
+    model: Option<ModelSpec>,
     #[command(flatten)]
     table: TableArgs,
     /// Train the network on the pushes of the run, and write the final table fit to this file.
@@ -120,12 +120,12 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
         ));
     }
     let truth = world(&args.world, &task, &library)?;
-    let models = args.model.clone().unwrap_or_else(|| args.effort.models());
+    let spec = args.model.clone().unwrap_or_else(|| args.effort.model());
     let fit = args.table.load()?;
     if let Some(fit) = &fit {
         model::state(fit, &mut task.scene, session);
     }
-    let planner = Planner::fitted(&models, fit.as_ref())?
+    let planner = Planner::fitted(&spec, fit.as_ref())?
         .effort(args.effort)
         .seed(args.seed)
         .out_of_range(args.out_of_range.out_of_range())
@@ -142,13 +142,13 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
         seed: args.seed,
         ..RunSettings::default()
     };
-    if args.save_fit.is_some() && EffectModels::weights_of(&models.decided)?.is_none() {
-        let advice = "omit --save-fit, or use a network as final model: --model prior>network";
-        return Err(CliError::usage(format!("{models} contains no network to train"), advice));
+    if args.save_fit.is_some() && EffectModels::weights_of(&spec)?.is_none() {
+        let advice = "omit --save-fit, or use a network: --model network";
+        return Err(CliError::usage(format!("{spec} contains no network to train"), advice));
     }
     let regulator = args.regulator.load()?;
     let mut planned_by = format!(
-        "{models}, effort {}, out-of-range {}",
+        "{spec}, effort {}, out-of-range {}",
         args.effort,
         args.out_of_range.out_of_range()
     );

@@ -9,7 +9,7 @@ use pushplan::asset::PlanFile;
 use pushplan::outcome::warning_lines;
 use pushplan::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
 use pushplan::{
-    scene::{Models, Situation},
+    scene::{ModelSpec, Situation},
     task::Task,
 };
 use pushplan_report::{Origin, PageView, plan_figures, solution_document, solution_page};
@@ -49,7 +49,7 @@ pub struct SolveArgs {
     #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
-    model: Option<Models>,
+    model: Option<ModelSpec>,
     #[command(flatten)]
     table: model::TableArgs,
     #[command(flatten)]
@@ -87,8 +87,8 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     if let Some(fit) = &fit {
         model::state(fit, &mut task.scene, session);
     }
-    let models = args.model.clone().unwrap_or_else(|| effort.models());
-    let planner = Planner::fitted(&models, fit.as_ref())?;
+    let spec = args.model.clone().unwrap_or_else(|| effort.model());
+    let planner = Planner::fitted(&spec, fit.as_ref())?;
     output::prepare(&args.results.out)?;
     let settings = match args.replays {
         Some(count) => effort.settings().replaying(count.into()),
@@ -176,8 +176,8 @@ pub struct Results<'a> {
     pub page: PageView,
     /// Whether an animation is drawn.
     pub animate: bool,
-    /// Function that returns the sources of a plan for the given models.
-    pub origin: &'a dyn Fn(Option<Models>) -> Origin,
+    /// Function that returns the sources of a plan for the given model.
+    pub origin: &'a dyn Fn(Option<ModelSpec>) -> Origin,
 }
 
 impl Results<'_> {

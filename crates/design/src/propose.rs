@@ -69,7 +69,7 @@ pub fn design(
     }
 
     progress.stage("evaluating proposed tools");
-    let (model, field) = (planner.screen(), CostToGo::new(task));
+    let (model, field) = (planner.model(), CostToGo::new(task));
     let spread = Uncertainty::around(&situation);
     let looking = Looking { task, situation: &situation, model, field, spread, progress };
     let mut seen = search(&looking, settings, planner.seed());

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use pushplan::effect::EffectModel;
 use pushplan::plan::{
-    CostToGo, FOUND_RADIUS, REFINABLE, RefineSettings, RefineStatistics, Refined, Rollouts, Search,
+    CostToGo, REFINABLE, RefineSettings, RefineStatistics, Refined, Rollouts, Search,
     Uncertainty, Workspace, refine,
 };
 use pushplan::progress::{Progress, Quiet};
@@ -23,8 +23,6 @@ const SETTINGS: Settings = Settings {
     refined: 2,
     refine_rounds: 2,
     refine_extra: 0,
-    decided_rounds: 0,
-    short_list: 0,
     verified_at_once: 1,
     verify_batches: 0,
     replays: 0,
@@ -122,8 +120,6 @@ impl Looking<'_> {
                     seed: 0,
                     enough: 1,
                     rollouts: usize::MAX,
-                    short_list: usize::MAX,
-                    radius: FOUND_RADIUS,
                 },
                 &mut RefineStatistics::default(),
                 progress,

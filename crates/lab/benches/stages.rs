@@ -8,10 +8,10 @@ use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_mai
 use pushplan::asset::ToolLibrary;
 use pushplan::contact::{Bodies, Frame, FrameProblem, FrameSolver};
 use pushplan::effect::{EffectModel, EffectModels, Network, Prior, Simulated};
-use pushplan::graph::Batch;
+use pushplan::graph::{Batch, Corrections};
 use pushplan::network::{Buffers, Forward};
 use pushplan::plan::{
-    FOUND_RADIUS, QpProblem, QpSolver, RefineSettings, RefineStatistics, Rollouts, Search,
+    QpProblem, QpSolver, RefineSettings, RefineStatistics, Rollouts, Search,
     SearchSettings, Workspace, refine,
 };
 use pushplan::progress::NoProgress;
@@ -194,8 +194,6 @@ fn planning(criterion: &mut Criterion) {
         seed: SEED,
         enough: best.len(),
         rollouts: usize::MAX,
-        short_list: usize::MAX,
-        radius: FOUND_RADIUS,
     };
     criterion.bench_function("refinement of 8 pushes", |b| {
         b.iter(|| {

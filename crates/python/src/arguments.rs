@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use pushplan::effect::{EffectModels, Fallback, OutOfRange};
 use pushplan::scene::{Engine, TableFit};
-use pushplan::{Effort, ModelSpec, Models, PlanStatus};
+use pushplan::{Effort, ModelSpec, PlanStatus};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -42,11 +42,6 @@ fn one_of<T: Display + Copy>(what: &str, word: &str, all: &[T]) -> PyResult<T> {
 
 /// Parses the name of an effect model.
 pub fn spec(py: Python<'_>, text: &str) -> PyResult<ModelSpec> {
-    text.parse().map_err(|error| errors::spec(py, &error))
-}
-
-/// Parses the names of a planner's effect models.
-pub fn models(py: Python<'_>, text: &str) -> PyResult<Models> {
     text.parse().map_err(|error| errors::spec(py, &error))
 }
 

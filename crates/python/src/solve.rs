@@ -38,9 +38,8 @@ use crate::{arguments, errors, work};
 /// effort : {"draft", "standard", "thorough"}, default "standard"
 ///     Size of the search.
 /// model : str, optional
-///     Effect model, such as "network", "prior" (the analytic model), "planar" or "3d". Two names
-///     with ">" between them are the screening model and the final model. By default the models of
-///     the effort.
+///     Effect model, such as "network", "prior" (the analytic model), "planar" or "3d". By default
+///     the model of the effort.
 /// out_of_range : {"warn", "simulate", "refuse"}, default "warn"
 ///     Action outside the model's validity range: add a warning, simulate in 2-D instead, or raise
 ///     `RefusedError`.
@@ -194,12 +193,12 @@ pub struct Asked<'a> {
 impl Asked<'_> {
     pub fn planner(&self, py: Python<'_>) -> PyResult<Planner> {
         let effort = arguments::effort(self.effort)?;
-        let models = match self.model {
-            Some(text) => arguments::models(py, text)?,
-            None => effort.models(),
+        let model = match self.model {
+            Some(text) => arguments::spec(py, text)?,
+            None => effort.model(),
         };
         let planner =
-            Planner::fitted(&models, self.fit).map_err(|error| errors::model(py, &error))?;
+            Planner::fitted(&model, self.fit).map_err(|error| errors::model(py, &error))?;
         let out_of_range = arguments::out_of_range(self.out_of_range)?;
         let settings = match self.replays {
             Some(count) => effort.settings().replaying(count),

@@ -43,7 +43,7 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
         sections.extend(refusals(solution));
     }
     sections.push(Section {
-        lines: vec![format!("models: {}", models_words(task, solution)), cost(solution)],
+        lines: vec![format!("model: {}", model_words(task, solution)), cost(solution)],
         ..Section::default()
     });
     Document {
@@ -168,27 +168,13 @@ fn alternatives(task: &Task, solution: &Solution) -> Option<Section> {
     })
 }
 
-/// Returns the screening model, if it differs, and the final model.
-fn screened_and_decided(solution: &Solution) -> (Option<ModelKind>, ModelKind) {
-    let models = &solution.models;
+/// Formats the model in words: the one of several that predicted the best plan.
+pub(super) fn model_words(task: &Task, solution: &Solution) -> String {
     let by = solution.best().map(|best| &best.predicted.by.first().kind);
     let took = |part: &&ModelPart| Some(&part.kind) == by;
-    let kind = |part: &ModelPart| part.kind.clone();
-    let decided = models.decided.parts().find(took).unwrap_or(models.decided.first());
-    let same = models.screened.parts().any(|part| part.kind == decided.kind);
-    ((!same).then(|| kind(models.screened.first())), kind(decided))
-}
-
-/// Formats the screening model and the final model in words.
-pub(super) fn models_words(task: &Task, solution: &Solution) -> String {
-    let (screened, decided) = screened_and_decided(solution);
-    let crowd =
-        matches!(decided, ModelKind::Network { .. }) && task.scene.objects.len() > CORRECTED;
-    let decided = ModelSpec::from(decided);
-    let line = match screened.map(ModelSpec::from) {
-        Some(screened) => format!("{screened} (screening), {decided} (final)"),
-        None => decided.to_string(),
-    };
+    let kind = &solution.model.parts().find(took).unwrap_or(solution.model.first()).kind;
+    let crowd = matches!(kind, ModelKind::Network { .. }) && task.scene.objects.len() > CORRECTED;
+    let line = ModelSpec::from(kind.clone()).to_string();
     match crowd {
         true => format!("{line}; only its analytic model while more than {CORRECTED} objects move"),
         false => line,
@@ -210,9 +196,8 @@ fn cost(solution: &Solution) -> String {
     let stages =
         if stages.is_empty() { String::new() } else { format!(" ({})", stages.join(", ")) };
     format!(
-        "rollouts: {}, of which {} with the final model; plans verified: {}; time: {}{stages}",
+        "rollouts: {}; plans verified: {}; time: {}{stages}",
         statistics.rollouts,
-        statistics.decided,
         statistics.verified,
         seconds(timing.total)
     )
@@ -240,7 +225,6 @@ fn json(task: &Task, solution: &Solution) -> Json {
     json!({
         "task": task.name,
         "model": solution.best().map(|best| &best.predicted.by),
-        "models": solution.models,
         "status": solution.status,
         "stopped": solution.stopped,
         "partial": solution.partial.as_ref().map(|partial| {

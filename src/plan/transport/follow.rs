@@ -40,10 +40,8 @@ pub struct FollowSettings {
     pub search: SearchSettings,
     /// Number of candidates to refine for each push.
     pub candidates: usize,
-    /// Settings of the refinement with the screening model.
+    /// Settings of the refinement.
     pub refine: RefineSettings,
-    /// Settings of the refinement with the final model, if it differs.
-    pub decide: RefineSettings,
 }
 
 /// Legs that pushes could follow.
@@ -57,15 +55,14 @@ pub struct Followed {
     pub state: State,
 }
 
-/// Finds pushes along `legs` with one tool and grip yaw. The first of `models` is the screening
-/// model and the second the final model; `used` counts the rollouts of each.
+/// Finds pushes along `legs` with one tool and grip yaw; `used` counts the rollouts of the model.
 pub fn follow(
     workspace: &Workspace,
     situation: &Situation,
     (tool, grip_yaw): (usize, f64),
     legs: &[Leg],
-    (models, settings): ([&dyn EffectModel; 2], FollowSettings),
-    used: &mut [usize; 2],
+    (model, settings): (&dyn EffectModel, FollowSettings),
+    used: &mut usize,
     progress: &dyn Progress,
 ) -> Followed {
     let mut followed =
@@ -81,17 +78,17 @@ pub fn follow(
             0 => 0.0,
             _ => room(&situation.scene, leg.object, &now.start, &others, error),
         };
-        let Some(best) = push(&own, &now, first_room, (models, settings), used, progress) else {
+        let Some(best) = push(&own, &now, first_room, (model, settings), used, progress) else {
             break;
         };
         if best.score > LOST {
             break;
         }
-        let mut rollouts = Rollouts::new(models[0], now);
+        let mut rollouts = Rollouts::new(model, now);
         let jobs: Vec<_> =
             best.motions(&own).iter().flat_map(|motion| spread.jobs(motion, &others)).collect();
         let ends = rollouts.run(&jobs, Record::Outcome);
-        used[0] += rollouts.used();
+        *used += rollouts.used();
         others = ends.iter().map(|end| end.outcome().clone()).collect();
         // The search had a single tool, at index 0.
         let pushes = best.candidate.pushes.iter().map(|push| CandidatePush { tool, ..*push });
@@ -128,13 +125,13 @@ fn push(
     workspace: &Workspace,
     now: &Situation,
     first_room: f64,
-    (models, settings): ([&dyn EffectModel; 2], FollowSettings),
-    used: &mut [usize; 2],
+    (model, settings): (&dyn EffectModel, FollowSettings),
+    used: &mut usize,
     progress: &dyn Progress,
 ) -> Option<Evaluation> {
-    let mut screening = Rollouts::new(models[0], now.clone());
+    let mut rollouts = Rollouts::new(model, now.clone());
     let mut search = Search::new(*workspace, now, settings.search).with_first_room(first_room);
-    let found = search.deepen(&mut screening, progress);
+    let found = search.deepen(&mut rollouts, progress);
     let chosen = kinds(&found, settings.candidates);
     let candidates: Vec<Candidate> = match chosen.len() {
         0 => return None,
@@ -145,23 +142,9 @@ fn push(
         }
     };
     let mut statistics = RefineStatistics::default();
-    let mut refined =
-        refine(workspace, &mut screening, &candidates, settings.refine, &mut statistics, progress);
-    used[0] += screening.used();
-    if !std::ptr::addr_eq(models[0], models[1]) {
-        let candidates: Vec<Candidate> =
-            refined.iter().map(|one| one.best.candidate.clone()).collect();
-        let mut deciding = Rollouts::new(models[1], now.clone());
-        refined = refine(
-            workspace,
-            &mut deciding,
-            &candidates,
-            settings.decide,
-            &mut statistics,
-            progress,
-        );
-        used[1] += deciding.used();
-    }
+    let refined =
+        refine(workspace, &mut rollouts, &candidates, settings.refine, &mut statistics, progress);
+    *used += rollouts.used();
     let moved = |one: &Evaluation| {
         let goal = workspace.task.goals[0].object;
         let others = now.scene.things().map(|(k, _)| k).filter(|k| *k != goal);

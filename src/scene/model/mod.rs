@@ -4,13 +4,11 @@
 mod assumption;
 mod engine;
 mod frame_travel;
-mod models;
 mod spec;
 mod text;
 
 pub use assumption::{Assumptions, JointBelief};
 pub use engine::Engine;
 pub use frame_travel::FRAME_TRAVEL;
-pub use models::{CORRECTED, Models};
-pub use spec::{ModelKind, ModelPart, ModelSpec, Rate, Stride};
+pub use spec::{CORRECTED, ModelKind, ModelPart, ModelSpec, Rate, Stride};
 pub use text::SpecError;

@@ -6,6 +6,10 @@ use crate::scene::Engine;
 
 use super::Assumptions;
 
+/// Maximum number of moving objects in a frame that the network reads. With more objects, reading
+/// costs more time than the analytic model and does not improve the prediction.
+pub const CORRECTED: usize = 5;
+
 /// An effect model as users and tables name it: `prior`, `planar,step=1/120`,
 /// `prior,up-to=2|planar,step=1/120`.
 ///

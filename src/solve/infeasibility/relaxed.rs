@@ -75,7 +75,7 @@ impl<'a> Case<'a> {
         while let Some(search) = board.search.as_mut().filter(|search| search.can_deepen())
             && !query.progress.cancelled()
         {
-            let found = search.deepen(&mut board.refiner.screening, query.progress);
+            let found = search.deepen(&mut board.refiner.rollouts, query.progress);
             let depth = search.depth();
             let chosen = board.attempts.choose(&found, settings.refined, &[], query.at_once());
             let first = board.attempts.list.len();

@@ -73,7 +73,7 @@ impl<'a> Clear<'a> {
         let one = self.unobstructed.get_or_insert_with(|| {
             let (task, situation) = alone;
             let workspace = Workspace { task, ..board.query.workspace() };
-            let rollouts = Rollouts::new(board.query.planner.screen(), situation.clone());
+            let rollouts = Rollouts::new(board.query.planner.model(), situation.clone());
             let search = Search::new(workspace, situation, usual.settings());
             Unobstructed { workspace, situation, rollouts, search }
         });
@@ -81,7 +81,7 @@ impl<'a> Clear<'a> {
             board.reporter.stage("search for obstructions");
             let before = one.rollouts.used();
             self.waiting.extend(one.deepen(board));
-            board.refiner.count([one.rollouts.used() - before, 0]);
+            board.refiner.rollouts.count(one.rollouts.used() - before);
         }
         let (now, later): (Vec<Clearing>, Vec<Clearing>) =
             std::mem::take(&mut self.waiting).into_iter().partition(|one| one.pushes <= pushes);

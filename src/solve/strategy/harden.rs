@@ -32,7 +32,7 @@ impl<'a> Strategy<'a> for Harden {
             rollouts: query.refine_rollouts(),
             seed: query.refine_settings(pushes).seed ^ HARDENING,
         };
-        let rollouts = &mut board.refiner.screening;
+        let rollouts = &mut board.refiner.rollouts;
         let found = harden(&query.workspace(), rollouts, &found, settings, query.progress);
         board.timing.search += began.elapsed().as_secs_f64();
         Ok(Some(Batch::Pushes(Candidates { found, pushes, hardenable: false })))

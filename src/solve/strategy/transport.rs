@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use crate::plan::{
-    FollowSettings, Followed, Groups, Leg, RefineSettings, Search, SearchResult,
+    FollowSettings, Followed, Groups, Leg, Search, SearchResult,
     Transport as Carrier, evaluate, follow,
 };
 use crate::progress::Instant;
@@ -12,7 +12,6 @@ use crate::scene::Tool;
 use crate::solve::SolveError;
 use crate::solve::arm_feasibility::arm_fault;
 use crate::solve::blackboard::{Blackboard, Candidates};
-use crate::solve::refiner::SCREENED_RADIUS;
 use crate::solve::solving::{Batch, Strategy};
 use crate::task::Plan;
 
@@ -106,7 +105,7 @@ pub(in crate::solve) fn approach(board: &mut Blackboard, least: usize) -> Option
     for (pair, legs) in ways {
         let followed = followed(board, pair, &legs[..AHEAD.min(legs.len())])?;
         let made = [followed.candidate];
-        let mut made = evaluate(&workspace, &mut board.refiner.screening, &made).into_iter();
+        let mut made = evaluate(&workspace, &mut board.refiner.rollouts, &made).into_iter();
         if followed.legs > 0
             && let Some(Ok(made)) = made.next()
             && arm_fault(&board.query, &made).is_none()
@@ -144,23 +143,15 @@ fn legs(board: &Blackboard, most: usize, count: usize) -> Vec<Legs> {
 /// Finds pushes along legs and counts their rollouts.
 fn followed(board: &mut Blackboard, pair: (usize, f64), legs: &[Leg]) -> Option<Followed> {
     let query = board.query;
-    let refine = query.refine_settings(1);
     let settings = FollowSettings {
         search: board.search.as_ref().map(Search::settings)?,
         candidates: CANDIDATES,
-        refine,
-        decide: RefineSettings {
-            rounds: query.planner.settings().decided_rounds,
-            radius: SCREENED_RADIUS,
-            short_list: CANDIDATES,
-            ..refine
-        },
+        refine: query.refine_settings(1),
     };
-    let models = [query.planner.screen(), query.planner.model()];
-    let mut used = [0; 2];
+    let mut used = 0;
     let (workspace, situation) = (query.workspace(), query.situation);
     let followed =
-        follow(&workspace, situation, pair, legs, (models, settings), &mut used, query.progress);
-    board.refiner.count(used);
+        follow(&workspace, situation, pair, legs, (query.planner.model(), settings), &mut used, query.progress);
+    board.refiner.rollouts.count(used);
     Some(followed)
 }

@@ -7,7 +7,7 @@ use clap::Args;
 
 use crate::{action::LibraryArgs, error::CliError, output, page, session::Session};
 use pushplan::asset::{PlanFile, load_task};
-use pushplan::scene::{Engine, Models, Situation};
+use pushplan::scene::{Engine, ModelSpec, Situation};
 use pushplan::verify::{Verifier, VerifySettings};
 use pushplan_bench::store::RunManifest;
 use pushplan_bench::{End, SolvedTask};
@@ -71,10 +71,8 @@ impl PageArgs {
                 "use exactly the task, the tools and the program version of the run",
             ));
         }
-        let models: Option<Models> = run.model.parse().ok();
-        let model = models.map(|models| models.decided);
-        let recipe =
-            self.library.origin(TaskSource::of(path), model.clone().map(Models::from)).plan(&plan);
+        let model: Option<ModelSpec> = run.model.parse().ok();
+        let recipe = self.library.origin(TaskSource::of(path), model.clone()).plan(&plan);
         let file = PlanFile { model, ..PlanFile::new(task, vec![Arc::clone(tool)], plan) };
         page::write(out, session, &file, &verdict, (recipe, PageView::Above))
     }

@@ -54,7 +54,7 @@ impl Suite for TasksArgs {
             .iter()
             .map(|file| Ok(load_task(file, &library)?))
             .collect::<Result<Vec<Task>, CliError>>()?;
-        let models = self.common.models(self.effort);
+        let model = self.common.model(self.effort);
         let planner = self.common.planner(self.effort)?.seed(self.seed).build();
         let mut settings = json!({
             "budget": planner.settings(),
@@ -63,8 +63,8 @@ impl Suite for TasksArgs {
             "content": value_digest(&tasks)?,
         });
         self.common.out_of_range.note(&mut settings);
-        let manifest = RunManifest::new(Self::NAME, tasks.len(), self.seed, &models.to_string())
-            .with_weights(weights_digest(&models.decided)?)
+        let manifest = RunManifest::new(Self::NAME, tasks.len(), self.seed, &model.to_string())
+            .with_weights(weights_digest(&model)?)
             .with_settings(settings);
         let measure = Measure::InTurn(Box::new(move |index| {
             let task = &tasks[index];

@@ -13,7 +13,7 @@ use crate::{
     value_enums::{EFFORTS, LAYOUTS, possible_values},
 };
 use pushplan::asset::write_atomic;
-use pushplan::scene::{ModelKind, ModelSpec, Models};
+use pushplan::scene::{ModelKind, ModelSpec};
 use pushplan::solve::{Effort, Planner, Settings};
 use pushplan_bench::store::RunManifest;
 use pushplan_bench::{
@@ -28,9 +28,9 @@ use super::suite::{Cases, Measure, Run, Suite, SuiteArgs, only};
 #[derive(Args, Debug)]
 #[command(after_help = keep::HELP)]
 pub struct ToolsArgs {
-    /// Effect model of all rows [default: the network; for the planner, the models of the effort]
+    /// Effect model of all rows [default: the network; for the planner, the model of the effort]
     #[arg(long, value_name = "MODEL")]
-    model: Option<Models>,
+    model: Option<ModelSpec>,
     #[command(flatten)]
     out_of_range: OutOfRangeArgs,
     /// Start positions of the cylinder
@@ -97,7 +97,7 @@ pub fn run(args: &SuiteArgs<ToolsArgs>, session: &Session) -> Result<(), CliErro
 impl ToolsArgs {
     /// Returns the model of all rows.
     fn spec(&self) -> ModelSpec {
-        self.model.clone().map_or(ModelKind::NETWORK.into(), |models| models.decided)
+        self.model.clone().unwrap_or_else(|| ModelKind::NETWORK.into())
     }
 }
 
@@ -117,8 +117,8 @@ impl Suite for ToolsArgs {
         let spec = self.spec();
         let model = self.out_of_range.load(&spec)?;
         let effort = self.effort;
-        let models = self.model.clone().unwrap_or_else(|| effort.models());
-        let planner = Planner::with_models(&models)?
+        let planned = self.model.clone().unwrap_or_else(|| effort.model());
+        let planner = Planner::with_model(&planned)?
             // Perturbed replays measure the robustness of a plan without affecting its choice.
             .settings(Settings { replays: 0, ..effort.settings() })
             .seed(self.seed)
@@ -127,7 +127,7 @@ impl Suite for ToolsArgs {
         let mut settings = json!({
             "layout": layout,
             "goals": value_digest(&goals)?,
-            "planner": format!("effort {effort} with {}", planner.models()),
+            "planner": format!("effort {effort} with {planned}"),
             "budget": planner.settings(),
         });
         self.out_of_range.note(&mut settings);

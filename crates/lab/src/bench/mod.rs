@@ -59,6 +59,6 @@ pub use suite::{Case, Suite, SuiteKind, crowd_cases};
 pub use timing::{PushCost, SearchCost, push_costs, search_costs};
 pub use tradeoff::{
     Level, Noise, ObjectCost, PlanLevel, PlanRow, Point, PredictorRow, SuiteErrors, TradeOff,
-    TradeOffReport, TradeOffSettings, Unit, dominates, is_open_to, levels, on_front, plan_levels,
+    TradeOffReport, TradeOffSettings, Unit, dominates, is_open, levels, on_front, plan_levels,
     prior_instead,
 };

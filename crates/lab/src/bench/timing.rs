@@ -134,8 +134,6 @@ pub fn search_costs(
         refined: 1,
         refine_rounds: 0,
         refine_extra: 0,
-        decided_rounds: 0,
-        short_list: 0,
         verified_at_once: 1,
         verify_batches: 1,
         replays: 0,

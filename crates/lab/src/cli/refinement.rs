@@ -46,7 +46,7 @@ impl Suite for RefinementArgs {
     ) -> Result<Cases<'a, RefinedTask>, CliError> {
         let library = self.common.library.load()?;
         let effort = self.effort;
-        let models = self.common.models(effort);
+        let model = self.common.model(effort);
         let budget = Settings { replays: 0, ..effort.settings() };
         let planner = |settings| -> Result<Planner, CliError> {
             Ok(self.common.planner(effort)?.settings(settings).build())
@@ -61,8 +61,8 @@ impl Suite for RefinementArgs {
             "tools": tools_digest(library.iter())?,
         });
         self.common.out_of_range.note(&mut settings);
-        let manifest = RunManifest::new(Self::NAME, count, self.seed, &models.to_string())
-            .with_weights(weights_digest(&models.decided)?)
+        let manifest = RunManifest::new(Self::NAME, count, self.seed, &model.to_string())
+            .with_weights(weights_digest(&model)?)
             .with_settings(settings);
         let measure = Measure::InTurn(Box::new(move |index| {
             session

@@ -52,7 +52,7 @@ impl TasksArgs {
         suite: &RandomSuite,
         (effort, planner): (Effort, &Planner),
     ) -> Result<RunManifest, CliError> {
-        let models = self.common.models(effort);
+        let model = self.common.model(effort);
         let mut settings = json!({
             "effort": effort,
             "budget": planner.settings(),
@@ -61,8 +61,8 @@ impl TasksArgs {
             "tools": tools_digest(suite.tools().iter())?,
         });
         self.common.out_of_range.note(&mut settings);
-        Ok(RunManifest::new(name, count, self.seed, &models.to_string())
-            .with_weights(weights_digest(&models.decided)?)
+        Ok(RunManifest::new(name, count, self.seed, &model.to_string())
+            .with_weights(weights_digest(&model)?)
             .with_settings(settings))
     }
 }

@@ -203,7 +203,7 @@ fn task_chart(report: &TradeOffReport) -> Chart {
         let chosen = report.efforts.iter().filter(|(_, choice)| choice.name == row.level.name);
         let efforts: Vec<String> = chosen.map(|(effort, _)| effort.to_string()).collect();
         Dot {
-            model: row.level.models().to_string(),
+            model: row.level.model.to_string(),
             label: efforts.join(", "),
             at: [row.seconds, 1e2 * row.robustness],
             front: row.on_front,

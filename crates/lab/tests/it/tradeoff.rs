@@ -5,13 +5,13 @@ use pushplan::{
     asset::ToolLibrary,
     effect::{EffectModel, EffectModels, Fallback, Job},
     outcome::Record,
-    scene::{ModelSpec, Models},
+    scene::ModelSpec,
     solve::{Effort, Settings},
 };
 use pushplan_bench::store::{Seconds, Store, StoreError};
 use pushplan_lab::bench::{
     Level, ObjectCost, PlanRow, Suite, SuiteKind, TradeOff, TradeOffReport, TradeOffSettings, Unit,
-    dominates, is_open_to, levels, plan_levels,
+    dominates, is_open, levels, plan_levels,
 };
 use pushplan_lab::published::{place, select, tables};
 use pushplan_lab::report::tradeoff_document;
@@ -111,9 +111,9 @@ fn every_level_is_measured_and_an_interrupted_run_goes_on() {
     assert_eq!(report.plans.len(), 5);
     assert!(report.plans.iter().all(|plan| plan.seconds > 0.0 && plan.rollouts > 100.0));
     assert!(report.plans.iter().any(|plan| plan.on_front));
-    for (effort, choice) in &report.efforts {
+    for choice in report.efforts.values() {
         let row = report.plans.iter().find(|row| row.level.name == choice.name).unwrap();
-        assert!(is_open_to(*effort, &row.level) && row.level == *choice);
+        assert!(is_open(&row.level) && row.level == *choice);
     }
     let text = serde_json::to_string_pretty(&report).unwrap();
     assert_eq!(serde_json::from_str::<TradeOffReport>(&text).unwrap(), report);
@@ -127,16 +127,15 @@ fn every_level_is_measured_and_an_interrupted_run_goes_on() {
 const MEASURED: &str = include_str!("../../results/tradeoff.json");
 const PAGE: &str = include_str!("../../results/tradeoff.md");
 
-/// Returns `true` if an effort runs the models and budgets that were published for it, as far as pushes
-/// go.
+/// Returns `true` if an effort runs the model and budgets that were published for it, as far as
+/// pushes go. Levels of earlier versions that name two models are others.
 fn is_published(effort: Effort, report: &TradeOffReport) -> bool {
     let level = &report.efforts[&effort];
-    let Models { screened, decided } = effort.models();
-    let first = |spec: &ModelSpec| ModelSpec::of(spec.first().kind.clone());
-    let models = Models { screened: first(&screened), decided: first(&decided) };
+    let model = ModelSpec::of(effort.model().first().kind.clone());
     let Settings { replays, levers, .. } = level.settings;
     let pushing = Settings { replays, levers, ..effort.settings() };
-    models == level.models() && pushing == level.settings
+    let named = level.name.starts_with(&format!("{model}:"));
+    named && model == level.model && pushing == level.settings
 }
 
 #[test]
@@ -160,9 +159,9 @@ fn every_effort_is_a_measured_level_that_no_other_makes_needless() {
         })
         .collect();
     for (effort, row) in Effort::ALL.iter().zip(&chosen) {
-        assert!(row.is_complete() && is_open_to(*effort, &row.level), "{effort}");
+        assert!(row.is_complete() && is_open(&row.level), "{effort}");
         let others = report.plans.iter().filter(|other| other.is_complete());
-        for other in others.filter(|other| is_open_to(*effort, &other.level)) {
+        for other in others.filter(|other| is_open(&other.level)) {
             assert!(
                 !dominates(other.point(), row.point(), report.noise),
                 "{effort}, {}, is dominated by {}",
@@ -234,13 +233,11 @@ fn pushes_are_left_to_the_planar_engine_where_the_measured_costs_cross() {
     let report: TradeOffReport = serde_json::from_str(MEASURED).unwrap();
     // The costs of the analytic model determine the limit, also for the network, which contains it.
     for effort in Effort::ALL {
-        let models = effort.models();
-        for spec in models.specs() {
-            let (few, others) = (spec.first(), spec.others());
-            let rival = ModelSpec::from(others[0].kind.clone()).to_string();
-            let most = cheaper_up_to(&report.objects, "prior", &rival);
-            assert_eq!(few.up_to, Some(most), "{effort}: {spec}");
-        }
+        let spec = effort.model();
+        let (few, others) = (spec.first(), spec.others());
+        let rival = ModelSpec::from(others[0].kind.clone()).to_string();
+        let most = cheaper_up_to(&report.objects, "prior", &rival);
+        assert_eq!(few.up_to, Some(most), "{effort}: {spec}");
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use pushplan::{
-    scene::{Models, Span},
+    scene::{ModelSpec, Span},
     task::{Plan, Push, PushForm},
 };
 
@@ -40,7 +40,7 @@ impl Default for TaskSource {
     }
 }
 
-/// Files and models from which a page was made, as shown to users.
+/// Files and model from which a page was made, as shown to users.
 #[derive(Clone, Debug, Default)]
 pub struct Origin {
     /// Source of the task.
@@ -49,8 +49,8 @@ pub struct Origin {
     pub tools: Option<String>,
     /// Folder of additional tools.
     pub more_tools: Option<String>,
-    /// Models of the prediction, if they must be named.
-    pub model: Option<Models>,
+    /// Model of the prediction, if it must be named.
+    pub model: Option<ModelSpec>,
 }
 
 /// Setting of a run.

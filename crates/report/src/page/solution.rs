@@ -2,7 +2,7 @@
 
 use crate::number::millimetres;
 use crate::plan_text::{engine_name, moves_line, plan_line};
-use crate::solution::{headline, models_words, moved_by};
+use crate::solution::{headline, model_words, moved_by};
 use crate::table::NONE;
 use crate::verdict::verdict_line;
 use pushplan::plan::{ScoredPush, bare, is_behind};
@@ -55,7 +55,7 @@ pub fn solution_page(
         plan.replays = list;
     }
     making.data.columns = COLUMNS.to_vec();
-    making.data.models = format!("Models: {}.", models_words(task, solution));
+    making.data.models = format!("Model: {}.", model_words(task, solution));
     // For lever-ups only the plans are kept.
     if solution.statistics.levers.is_none() {
         making.data.choice = choice(solution);

@@ -68,7 +68,7 @@ fn search(query: &Query, task: &Task) -> (Vec<ScoredLever>, LeverSearchStatistic
 
 /// Predicts jobs with the model, or by coarse simulation if the model does not support them.
 fn predict(query: &Query, scene: &Scene, jobs: &[Job]) -> Vec<Trajectory> {
-    let model = query.planner.screen();
+    let model = query.planner.model();
     if jobs.iter().all(|job| model.takes(scene, job)) {
         model.rollout(scene, jobs, Record::Outcome)
     } else {

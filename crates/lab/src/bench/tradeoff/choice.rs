@@ -14,18 +14,16 @@ use super::{PlanLevel, Point};
 const LOSSES: [(Effort, f64); 3] =
     [(Effort::Draft, 0.10), (Effort::Standard, 0.032), (Effort::Thorough, 0.01)];
 
-/// Returns `true` if a level is eligible for `effort`. The final model must be the shipped network,
-/// without a screening model for the thorough effort.
-pub fn is_open_to(effort: Effort, level: &PlanLevel) -> bool {
-    let decides = level.model.first().kind == ModelKind::NETWORK;
-    decides && (effort != Effort::Thorough || level.screen.is_none())
+/// Returns `true` if a level is eligible for an effort: its model is the shipped network.
+pub fn is_open(level: &PlanLevel) -> bool {
+    level.model.first().kind == ModelKind::NETWORK
 }
 
 /// Returns the level of each effort: the cheapest on the front of the eligible levels whose
 /// failures are within `LOSSES`. If a cheap level is as robust as any, efforts share it.
 pub fn choose_efforts(plans: &[PlanRow], noise: Noise) -> BTreeMap<Effort, PlanLevel> {
     let choose = |(effort, loss)| {
-        let open = |row: &&PlanRow| row.is_complete() && is_open_to(effort, &row.level);
+        let open = |row: &&PlanRow| row.is_complete() && is_open(&row.level);
         let rows: Vec<&PlanRow> = plans.iter().filter(open).collect();
         let points: Vec<Point> = rows.iter().map(|row| row.point()).collect();
         let front = on_front(&points, noise);
@@ -43,7 +41,7 @@ pub fn choose_efforts(plans: &[PlanRow], noise: Noise) -> BTreeMap<Effort, PlanL
 /// robust. The costs must differ by more than the noise, the robustness by no more than the noise.
 pub fn prior_instead<'a>(plans: &'a [PlanRow], row: &PlanRow, noise: Noise) -> Option<&'a PlanRow> {
     let alone =
-        |level: &PlanLevel| level.model == ModelKind::PRIOR.into() && level.screen.is_none();
+        |level: &PlanLevel| level.model == ModelKind::PRIOR.into();
     plans
         .iter()
         .filter(|other| other.is_complete() && alone(&other.level))

@@ -4,7 +4,7 @@ use std::num::{NonZeroU8, NonZeroU16};
 use std::sync::Arc;
 
 use pushplan::internals::effect::{EffectModel, EffectModels, ModelError};
-use pushplan::internals::scene::{Engine, ModelKind, ModelSpec, Models, Rate, Stride};
+use pushplan::internals::scene::{Engine, ModelKind, ModelSpec, Rate, Stride};
 use pushplan::internals::solve::Settings;
 use serde::{Deserialize, Serialize};
 
@@ -106,48 +106,32 @@ pub fn levels(other: &[String]) -> Result<Vec<Level>, ModelError> {
 pub struct PlanLevel {
     /// Name of the models and budgets.
     pub name: String,
-    /// Final effect model.
+    /// Effect model.
     pub model: ModelSpec,
-    /// Screening model, if it differs.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub screen: Option<ModelSpec>,
     /// Budgets of the planner.
     pub settings: Settings,
-}
-
-impl PlanLevel {
-    /// Returns the screening and the final model.
-    pub fn models(&self) -> Models {
-        let models = Models::from(self.model.clone());
-        match &self.screen {
-            Some(screen) => models.screened_by(screen.clone()),
-            None => models,
-        }
-    }
 }
 
 /// Density of a search: its name, lateral offsets, beam and rollouts.
 type Search = (&'static str, usize, usize, usize);
 
-/// Refinement: its name, candidates, rounds and extra samples. With a screening model, also the
-/// rounds of the final model and the number of candidates that go through them.
-type Refinement = (&'static str, usize, usize, usize, (usize, usize));
+/// Refinement: its name, candidates, rounds and extra samples.
+type Refinement = (&'static str, usize, usize, usize);
 
 const COARSE: Search = ("coarse", 3, 8, 500);
 const MEDIUM: Search = ("medium", 5, 24, 2000);
 const FINE: Search = ("fine", 9, 64, 8000);
 
-const LIGHT: Refinement = ("light", 3, 2, 0, (1, 2));
-const USUAL: Refinement = ("usual", 8, 4, 2, (1, 4));
-const STRONG: Refinement = ("strong", 24, 8, 4, (2, 4));
+const LIGHT: Refinement = ("light", 3, 2, 0);
+const USUAL: Refinement = ("usual", 8, 4, 2);
+const STRONG: Refinement = ("strong", 24, 8, 4);
 
 /// Number of plans verified at once, of batches of them, and of perturbed replays of those that
 /// work, in each engine. At least one plan is verified, because it is otherwise unknown whether the
 /// plan works.
 type Verified = (usize, usize, usize);
 
-/// Budgets of the shipped network, alone or screened by its analytic model, and of the analytic
-/// model.
+/// Budgets of the shipped network and of the analytic model.
 const EVERY: [(Search, Refinement, Verified); 7] = [
     (COARSE, LIGHT, (1, 1, 0)),
     (COARSE, LIGHT, (2, 2, 4)),
@@ -179,35 +163,27 @@ pub fn plan_levels(levels: &[Level]) -> Vec<PlanLevel> {
             ModelKind::Simulated { engine: Engine::Planar, rate } if rate.0.get() <= 60 => &SOME,
             _ => &[],
         };
-        let models = Models::from(spec.clone());
-        plans.extend(budgets.iter().map(|budget| plan_level(&models, *budget)));
-        match spec.first().kind {
-            ModelKind::NETWORK => {
-                let models = models.screened_by(ModelKind::PRIOR);
-                plans.extend(EVERY.iter().map(|budget| plan_level(&models, *budget)));
-            }
-            ModelKind::PRIOR => plans.push(plan_level(&models, MANY_AT_ONCE)),
-            _ => {}
+        plans.extend(budgets.iter().map(|budget| plan_level(spec, *budget)));
+        if spec.first().kind == ModelKind::PRIOR {
+            plans.push(plan_level(spec, MANY_AT_ONCE));
         }
     }
     plans
 }
 
-fn plan_level(models: &Models, budget: (Search, Refinement, Verified)) -> PlanLevel {
+fn plan_level(model: &ModelSpec, budget: (Search, Refinement, Verified)) -> PlanLevel {
     let (search, refinement, (verified_at_once, verify_batches, replays)) = budget;
     let (density, offsets, beam, search_rollouts) = search;
-    let (effort, refined, refine_rounds, refine_extra, last) = refinement;
-    let (decided_rounds, short_list) = if models.is_one() { (0, 0) } else { last };
+    let (effort, refined, refine_rounds, refine_extra) = refinement;
     PlanLevel {
         name: format!(
-            "{models}: {density} search, {effort} refinement, up to {} verified, {} at a time, \
+            "{model}: {density} search, {effort} refinement, up to {} verified, {} at a time, \
              {} disturbed",
             verified_at_once * verify_batches,
             verified_at_once,
             replays
         ),
-        model: models.decided.clone(),
-        screen: (!models.is_one()).then(|| models.screened.clone()),
+        model: model.clone(),
         settings: Settings {
             levers: pushplan::internals::solve::LeverSettings::STANDARD,
             offsets,
@@ -216,8 +192,6 @@ fn plan_level(models: &Models, budget: (Search, Refinement, Verified)) -> PlanLe
             refined,
             refine_rounds,
             refine_extra,
-            decided_rounds,
-            short_list,
             verified_at_once,
             verify_batches,
             replays,

@@ -18,7 +18,7 @@ mod levels;
 mod measured;
 mod run;
 
-pub use choice::{is_open_to, prior_instead};
+pub use choice::{is_open, prior_instead};
 pub use front::{Noise, Point, dominates, on_front};
 pub use levels::{Level, PlanLevel, levels, plan_levels};
 pub use measured::{ObjectCost, PlanRow, PredictorRow, SuiteErrors, TradeOffReport};

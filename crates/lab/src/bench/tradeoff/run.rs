@@ -104,10 +104,7 @@ impl<'a> TradeOff<'a> {
         let (plans, planners) = plans
             .into_iter()
             .filter_map(|plan| {
-                let mut planner = Planner::builder(model(&plan.model)?.model());
-                if let Some(screen) = &plan.screen {
-                    planner = planner.screened_by(model(screen)?.model());
-                }
+                let planner = Planner::builder(model(&plan.model)?.model());
                 let planner = planner.settings(plan.settings).build();
                 Some((plan, planner))
             })
