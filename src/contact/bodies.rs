@@ -5,8 +5,8 @@ use std::sync::Arc;
 use crate::{
     geometry::{AreaMoments, ContactPoint, Footprint, Placed, Pose, Rim, Turn, Vector, clearance},
     scene::{
-        Body, Feet, GRAVITY, JOIN_GAP, JointKind, PairFriction, Physics, RigidGroups, Scene, Separation,
-        Span, Surface, Tool, face_height, pair_friction,
+        Body, Feet, GRAVITY, JOIN_GAP, JointKind, PairFriction, Physics, RigidGroups, Scene,
+        Separation, Span, Surface, Tool, face_height, pair_friction,
     },
 };
 

@@ -2,7 +2,7 @@
 //!
 //! The parts of a tool, and obstacles that touch, move as one body. Every part p has an additive
 //! state s_p, the [`AreaMoments`] of its area. Over the edges of a spanning tree of the fixed
-//! joints, every part sends the sum of what it holds and has received:
+//! joints, every part sends the sum of its own state and of all received ones:
 //!
 //! ```text
 //! m_pq = s_p + sum of m_rp over the neighbours r of p except q        S_p = s_p + sum of m_qp

@@ -123,12 +123,19 @@ impl Network {
         let all = scene.objects.iter().zip(spreads);
         for (object, spread) in all.filter(|(_, spread)| spread.position > 0.0) {
             *spread += doubt.floor();
+            // The noise of a fitted table is independent of the network's error.
+            spread.position = spread.position.hypot(self.noise());
             let within = spread.within_90().position;
             if within > Spread::DOUBTFUL {
                 warnings.push(Warning::Doubtful { object: object.name.clone(), within });
             }
         }
         trajectory
+    }
+
+    /// Returns the noise of the fitted table, metres; zero without a fit.
+    fn noise(&self) -> f64 {
+        self.strange.as_ref().map_or(0.0, |strange| strange.fit.noise)
     }
 
     /// Returns the forward pass.

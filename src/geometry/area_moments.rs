@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn the_spread_of_a_bar_along_its_axis_is_that_of_a_uniform_distribution() {
+    fn the_spread_of_a_bar_is_the_variance_of_a_uniform_distribution() {
         let bar = Footprint::Rectangle { half: Vector::new(0.3, 0.03) };
         let moments = AreaMoments::of(&bar, &Pose::new(1.0, 2.0, 0.5));
         let [along, mixed, across] = moments.spread(Vector::new(0.5f64.cos(), 0.5f64.sin()));

@@ -10,7 +10,7 @@ use crate::{
 };
 
 use super::{
-    node::{Node, UNIT},
+    node::{Node, READOUTS, UNIT},
     prescribed::PrescribedNode,
     relation::{Relation, RelationKind},
 };
@@ -36,9 +36,6 @@ pub const GIVEN_ODD: usize = 3;
 pub const RELATION_EVEN: usize = 26;
 /// Odd features of a relation.
 pub const RELATION_ODD: usize = 12;
-/// Number of readouts, one for each engine that states no height of contact: the 3-D engine and
-/// MuJoCo.
-pub const READOUTS: usize = 2;
 /// Even outputs of a node: displacement x of every readout.
 pub const OUTPUT_EVEN: usize = READOUTS;
 /// Odd outputs of a node: displacement y and rotation of every readout.

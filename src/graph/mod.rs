@@ -12,8 +12,8 @@ mod relation;
 
 pub use batch::{Batch, GIVEN, NOBODY};
 pub use features::{
-    GIVEN_EVEN, GIVEN_ODD, NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, READOUTS,
-    RELATION_EVEN, RELATION_ODD,
+    GIVEN_EVEN, GIVEN_ODD, NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN,
+    RELATION_ODD,
 };
-pub use node::{Correction, Corrections, Node, UNIT};
+pub use node::{Correction, Corrections, Node, READOUTS, UNIT};
 pub use prescribed::PrescribedNode;

@@ -6,7 +6,9 @@ use crate::{
     scene::FRAME_TRAVEL,
 };
 
-use super::features::READOUTS;
+/// Number of readouts, one for each engine that states no height of contact: the 3-D engine and
+/// MuJoCo.
+pub const READOUTS: usize = 2;
 
 /// Unit of displacements and gaps, metres: one frame of tool travel.
 pub const UNIT: f64 = FRAME_TRAVEL;

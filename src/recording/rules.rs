@@ -67,7 +67,9 @@ pub struct Gap {
 /// unwrapped, see [`RecordedFrame::unwrap_after`].
 pub fn jumps(before: &RecordedFrame, now: &RecordedFrame) -> Vec<Jump> {
     let pusher = (!now.lifted).then_some((Body::Pusher, &before.tool, &now.tool));
-    let poses = before.poses.iter().zip(&now.poses).enumerate();
+    // After frames without objects, their last sight may be long ago.
+    let seen = if before.seen { &before.poses[..] } else { &[] };
+    let poses = seen.iter().zip(&now.poses).enumerate();
     let objects = poses.map(|(index, (before, now))| (Body::Object(index), before, now));
     let bodies = pusher.into_iter().chain(objects);
     bodies

@@ -23,8 +23,14 @@ use crate::{
 /// Overlap that remains between bodies after a correction, metres: as after a frame's solution.
 const SLACK: f64 = 2e-4;
 
-/// Number of rounds in which overlaps are removed.
-const ROUNDS: usize = 4;
+/// Number of rounds in which overlaps are removed after each step.
+const ROUNDS: usize = 3;
+
+/// Length of a step in which changes are added, metres: little compared with the faces of bodies.
+const STEP: f64 = 2e-3;
+
+/// Maximum number of steps; learned changes rarely need more than one.
+const MOST_STEPS: f64 = 16.0;
 
 /// The motion of an object in a frame that the network reads: in the frame itself, or in the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -146,86 +152,81 @@ impl Reading {
 }
 
 /// Adds the changes of these objects to their poses, which then neither overlap nor leave joints.
+///
+/// Large changes are added in steps, so that overlaps stay shallow and their normals clear.
 fn apply(bodies: &Bodies, frame: &mut Frame, objects: &[usize], changes: &[Change]) {
     let Frame { tool, state, .. } = frame;
-    let mut moved = false;
-    for &object in objects {
-        let (shift, turn) = changes[object].mean();
-        moved |= shift != Vector::zeros() || turn != 0.0;
-        let pose = &mut state.poses[object];
-        pose.position += shift;
-        pose.heading += turn;
+    let changes: Vec<(Vector, f64)> = objects.iter().map(|&k| changes[k].mean()).collect();
+    let budget = |(&object, (shift, turn)): (&usize, &(Vector, f64))| {
+        shift.norm() + bodies.objects[object].radius * turn.abs()
+    };
+    let mut left: Vec<f64> = objects.iter().zip(&changes).map(budget).collect();
+    let largest = left.iter().copied().fold(0.0, f64::max);
+    if largest == 0.0 {
+        return;
     }
-    if moved {
-        separate(bodies, state, tool, objects, changes);
-        project_joints(bodies, state, |object| objects.contains(&object));
+    let steps = (largest / STEP).ceil().min(MOST_STEPS);
+    for _ in 0..steps as usize {
+        for (&object, (shift, turn)) in objects.iter().zip(&changes) {
+            let pose = &mut state.poses[object];
+            pose.position += *shift / steps;
+            pose.heading += turn / steps;
+        }
+        for _ in 0..ROUNDS {
+            let shifts = separating(bodies, state, tool, objects);
+            if shifts.iter().all(|shift| *shift == Vector::zeros()) {
+                break;
+            }
+            for ((&object, shift), left) in objects.iter().zip(&shifts).zip(&mut left) {
+                let length = shift.norm();
+                if length > 0.0 {
+                    let share = (*left / length).min(1.0);
+                    state.poses[object].position += share * shift;
+                    *left -= share * length;
+                }
+            }
+        }
     }
+    project_joints(bodies, state, |object| objects.contains(&object));
 }
 
-/// Moves corrected objects out of other bodies, by at most the length of their corrections.
+/// Returns the shifts that move corrected objects out of other bodies, metres.
 ///
-/// All pairs are treated at once, so that the result does not depend on their order. Two corrected
+/// Pairs are treated at once, so that the result does not depend on their order. Two corrected
 /// objects share a shift by their sizes.
-fn separate(
-    bodies: &Bodies,
-    state: &mut State,
-    tool: &Pose,
-    objects: &[usize],
-    changes: &[Change],
-) {
+fn separating(bodies: &Bodies, state: &State, tool: &Pose, objects: &[usize]) -> Vec<Vector> {
     let depth = |first: (&Footprint, &Pose), second: (&Footprint, &Pose)| -> Option<Vector> {
         let ContactPoint { gap, normal, .. } = contact_points(first, second, -SLACK).0[0]?;
         Some(-(gap + SLACK) * normal)
     };
-    let budget = |object: usize| {
-        let (shift, turn) = changes[object].mean();
-        shift.norm() + bodies.objects[object].radius * turn.abs()
-    };
-    let mut used = vec![0.0; objects.len()];
-    for _ in 0..ROUNDS {
-        let mut shifts = vec![Vector::zeros(); objects.len()];
-        for (k, &object) in objects.iter().enumerate() {
-            let body = &bodies.objects[object];
-            let own = (&body.footprint, &state.poses[object]);
-            for (other, with) in bodies.objects.iter().enumerate() {
-                let joined = bodies.mechanisms[other] == bodies.mechanisms[object];
-                let place = objects.binary_search(&other).ok();
-                // A pair of corrected objects is treated once.
-                if joined || !body.meets(with.span) || place.is_some() && other < object {
-                    continue;
-                }
-                let Some(out) = depth(own, (&with.footprint, &state.poses[other])) else {
-                    continue;
-                };
-                match place {
-                    None => shifts[k] += out,
-                    Some(place) => {
-                        let share = with.radius / (body.radius + with.radius);
-                        shifts[k] += share * out;
-                        shifts[place] -= (1.0 - share) * out;
-                    }
+    let mut shifts = vec![Vector::zeros(); objects.len()];
+    for (k, &object) in objects.iter().enumerate() {
+        let body = &bodies.objects[object];
+        let own = (&body.footprint, &state.poses[object]);
+        for (other, with) in bodies.objects.iter().enumerate() {
+            let joined = bodies.mechanisms[other] == bodies.mechanisms[object];
+            let place = objects.binary_search(&other).ok();
+            // A pair of corrected objects is treated once.
+            if joined || !body.meets(with.span) || place.is_some() && other < object {
+                continue;
+            }
+            let Some(out) = depth(own, (&with.footprint, &state.poses[other])) else { continue };
+            match place {
+                None => shifts[k] += out,
+                Some(place) => {
+                    let share = with.radius / (body.radius + with.radius);
+                    shifts[k] += share * out;
+                    shifts[place] -= (1.0 - share) * out;
                 }
             }
-            for obstacle in bodies.obstacles.iter().filter(|one| body.meets(one.span)) {
-                let with = (&obstacle.footprint, &obstacle.pose);
-                shifts[k] += depth(own, with).unwrap_or_default();
-            }
-            for part in bodies.parts.iter().filter(|part| body.meets(part.span)) {
-                let with = (&part.footprint, &(*tool * part.pose));
-                shifts[k] += depth(own, with).unwrap_or_default();
-            }
         }
-        if shifts.iter().all(|shift| *shift == Vector::zeros()) {
-            return;
-        }
-        for ((&object, shift), used) in objects.iter().zip(&shifts).zip(&mut used) {
-            let length = shift.norm();
-            let left = budget(object) - *used;
-            if length > 0.0 && left > 0.0 {
-                let share = (left / length).min(1.0);
-                state.poses[object].position += share * shift;
-                *used += share * length;
-            }
-        }
+        // Bodies with prescribed motion may be pieces of one face, of which the deepest counts.
+        let obstacles = bodies.obstacles.iter().map(|one| (one, one.pose));
+        let parts = bodies.parts.iter().map(|part| (part, *tool * part.pose));
+        let others = obstacles.chain(parts).filter(|(other, _)| body.meets(other.span));
+        let outs = others.filter_map(|(other, pose)| depth(own, (&other.footprint, &pose)));
+        let deepest = outs.max_by(|a, b| a.norm().total_cmp(&b.norm()));
+        shifts[k] += deepest.unwrap_or_default();
     }
+    shifts
 }

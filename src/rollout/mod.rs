@@ -10,6 +10,7 @@ mod integrate;
 mod pair_means;
 mod pressing;
 mod reach;
+mod reads;
 mod roll;
 mod run;
 mod settings;

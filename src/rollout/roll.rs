@@ -110,7 +110,7 @@ impl Roller {
             .collect();
         stepper.begin();
         while stepper.step(&mut runs, read) {}
-        runs.iter().for_each(|run| work.add(run.work()));
+        runs.iter().for_each(|run| work.add(&run.work));
         runs.into_iter().map(Run::finish).collect()
     }
 }

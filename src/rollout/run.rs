@@ -9,11 +9,12 @@ use crate::{
 };
 
 use super::{
-    correction::{Read, Reading},
+    correction::Reading,
     doubt::{Depths, loosest_joint},
     integrate::integrate,
     pressing::Pressing,
     reach::{Course, Listed, Reach},
+    reads::Reads,
     settings::RollSettings,
     stepper::{Found, Walk},
     work::Work,
@@ -62,12 +63,8 @@ pub(super) struct Run<'a> {
     /// Whether an object is blocked: only the last frame is kept from then on.
     blocked: bool,
     pressing: Pressing,
-    work: Work,
-    /// Whether the next frame with an awake object is read: every second one is.
-    reads_next: bool,
-    /// Node of every object in the frame read last, if the frame before belongs to it.
-    nodes: Vec<Option<u32>>,
-    reads: Vec<Read>,
+    pub work: Work,
+    reads: Reads,
     trajectory: Trajectory,
 }
 
@@ -103,9 +100,7 @@ impl<'a> Run<'a> {
             blocked: false,
             pressing: Pressing::default(),
             work: Work { rollouts: 1, ..Work::default() },
-            reads_next: true,
-            nodes: vec![None; scene.objects.len()],
-            reads: Vec::new(),
+            reads: Reads::new(scene.objects.len()),
             trajectory: Trajectory::new(by.clone()),
         };
         if record == Record::Frames {
@@ -113,11 +108,6 @@ impl<'a> Run<'a> {
             run.keep_frame(first.map(|stroke| stroke.from).unwrap_or_default());
         }
         run
-    }
-
-    /// Returns the cost so far.
-    pub fn work(&self) -> &Work {
-        &self.work
     }
 
     /// Advances to the tool's next frame that can change anything.
@@ -362,28 +352,7 @@ impl<'a> Run<'a> {
             self.keep_frame(motion.strokes.last().map(|stroke| stroke.to).unwrap_or_default());
         }
         self.trajectory.resolve_parts(self.scene, &motion.tool);
-        Reading { trajectory: self.trajectory, reads: self.reads }
-    }
-
-    /// Records the motions of the objects whose nodes the network reads, in the frame after
-    /// recorded frame `before`.
-    fn keep_reads(&mut self, motions: &[Motion], before: usize) {
-        let after = self.trajectory.frames.len().saturating_sub(1);
-        let bodies = &self.memory.subset.bodies;
-        for (own, (motion, body)) in motions.iter().zip(&bodies.objects).enumerate() {
-            let object = self.memory.subset.objects[own].0;
-            let length = motion.shift.norm() + body.support * motion.turn.abs();
-            if let Some(node) = self.nodes[object].filter(|_| length > 0.0) {
-                self.reads.push(Read {
-                    node,
-                    object: object as u32,
-                    frames: [before as u32, after as u32],
-                    length,
-                    axis: self.axis,
-                    support: body.support,
-                });
-            }
-        }
+        Reading { trajectory: self.trajectory, reads: self.reads.all }
     }
 }
 
@@ -393,7 +362,7 @@ impl Walk for Run<'_> {
         let Memory { subset, state, .. } = &*self.memory;
         let step = self.step.as_ref()?;
         let problem = FrameProblem { bodies: &subset.bodies, state, step, axis: self.axis };
-        Some((problem, self.reads_next))
+        Some((problem, self.reads.next))
     }
 
     fn note(&mut self, found: Found<'_>) {
@@ -404,14 +373,7 @@ impl Walk for Run<'_> {
         self.work.graphs += u64::from(!self.idle);
         self.work.nodes += found.awake as u64;
         self.work.relations += found.relations as u64;
-        if self.reads_next || self.idle {
-            self.nodes.fill(None);
-            for (k, node) in found.nodes.iter().enumerate() {
-                let object = self.memory.subset.objects[node.object.0].0;
-                self.nodes[object] = Some((found.first + k) as u32);
-            }
-        }
-        self.reads_next = found.nodes.is_empty();
+        self.reads.note(&found, &self.memory.subset.objects);
         found.touches.iter().for_each(|touch| self.touch(touch));
     }
 
@@ -432,6 +394,7 @@ impl Walk for Run<'_> {
         subset.return_state(state, &mut self.state);
         let before = self.trajectory.frames.len().saturating_sub(1);
         self.end_frame(&step);
-        self.keep_reads(motions, before);
+        let after = self.trajectory.frames.len().saturating_sub(1);
+        self.reads.advance(motions, &self.memory.subset.bodies, [before, after], self.axis);
     }
 }

@@ -15,9 +15,9 @@ use super::{Effort, LeverSettings, Settings};
 /// model's, and it costs a quarter of the engine at its default step.
 const CROWD_ENGINE: ModelKind = planar(60);
 
-/// Maximum number of objects in motion for which the network's analytic model is clearly cheaper than
-/// [`CROWD_ENGINE`]. It is the intersection of their costs, interpolated in logarithms between the
-/// measured numbers of objects, or the largest of these without an intersection.
+/// Maximum number of objects in motion for which the network's analytic model is clearly cheaper
+/// than [`CROWD_ENGINE`]. It is the intersection of their costs, interpolated in logarithms between
+/// the measured numbers of objects, or the largest of these without an intersection.
 const FEW_FOR_NETWORK: u16 = 9;
 
 /// Returns the 2-D engine at this many steps per second, at least one.
@@ -77,8 +77,8 @@ impl Effort {
         Settings { replays, levers, ..settings }
     }
 
-    /// Returns the effect model of the level: the network. The 2-D engine replaces it for pushes that
-    /// move so many objects that the network is no longer clearly cheaper.
+    /// Returns the effect model of the level: the network. The 2-D engine replaces it for pushes
+    /// that move so many objects that the network is no longer clearly cheaper.
     pub fn model(self) -> ModelSpec {
         ModelSpec::of(ModelKind::NETWORK).up_to(FEW_FOR_NETWORK).or(CROWD_ENGINE)
     }

@@ -13,9 +13,9 @@ use super::grade::Class;
 /// Evidence for the best plan so far, weakest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Milestone {
-    /// The screening model predicts success.
+    /// The search predicts success.
     Found,
-    /// The final model predicts success after refinement.
+    /// Success is predicted after refinement.
     Refined,
     /// The plan works as written in both engines, and in some of the perturbed replays.
     Works,
@@ -26,8 +26,8 @@ enum Milestone {
 impl Milestone {
     fn words(self) -> &'static str {
         match self {
-            Milestone::Found => "the screening model predicts success",
-            Milestone::Refined => "the final model predicts success",
+            Milestone::Found => "the search predicts success",
+            Milestone::Refined => "success is predicted after refinement",
             Milestone::Works => "the nominal replays succeed in both engines",
             Milestone::Passes => "passes",
         }

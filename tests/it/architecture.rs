@@ -77,7 +77,7 @@ const ROOMS: [(&str, &str); 15] = [
     ("asset", "geometry scene task outcome recording"),
     ("sim", "geometry scene task outcome"),
     ("contact", "geometry scene task"),
-    ("graph", "geometry scene task outcome contact"),
+    ("graph", "geometry scene task contact"),
     ("network", "scene outcome graph"),
     ("rollout", "geometry scene task outcome contact graph"),
     ("effect", "geometry scene task outcome sim graph network rollout"),

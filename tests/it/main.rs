@@ -14,6 +14,7 @@ mod clearing;
 mod cli;
 mod closed_loop;
 mod constraints;
+mod corrections;
 mod coverages;
 mod design;
 mod doors;

@@ -70,7 +70,7 @@ fn every_relation_carries_the_lasting_id_of_its_pair() {
     let objects: HashSet<u32> = readings[0].reads.iter().map(|read| read.object).collect();
     assert!(objects.len() > 3, "{objects:?}");
     let lasted = |wanted: &dyn Fn(Body) -> bool| {
-        relations.iter().any(|(pair, count)| *count > 20 && wanted(pairs.bodies(*pair).1))
+        relations.iter().any(|(pair, count)| *count > 8 && wanted(pairs.bodies(*pair).1))
     };
     assert!(lasted(&|body| matches!(body, Body::Object(_))));
     assert!(lasted(&|body| matches!(body, Body::Part(_))));

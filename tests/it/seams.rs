@@ -27,7 +27,7 @@ const SAME: f64 = 1e-4;
 const SAME_TIPPING: f64 = 5e-4;
 
 /// Maximum difference of the network, for which the cuboid alone is a smaller tool.
-const SAME_EXTENT: f64 = 2e-4;
+const SAME_EXTENT: f64 = 2e-3;
 
 /// Number of draws for each face and model.
 const DRAWS: usize = 40;

@@ -4,13 +4,14 @@
 use std::sync::Arc;
 
 use pushplan::asset::ToolLibrary;
+use pushplan::contact::Bodies;
 use pushplan::effect::{EffectModel, EffectModels, Network, Prior};
-use pushplan::geometry::{Pose, Shape, Vector};
+use pushplan::geometry::{AreaMoments, Pose, Shape, Vector};
 use pushplan::graph::{Batch, Corrections, GIVEN};
 use pushplan::network::{Buffers, Forward};
 use pushplan::{
     outcome::Record,
-    scene::{Object, Obstacle, Part, Scene, State, Tool},
+    scene::{Object, Obstacle, Part, Physics, Scene, State, Tool},
     task::{Job, Stroke, ToolMotion},
 };
 use pushplan_report::{Graph, NodeKind, RelationName};
@@ -79,25 +80,53 @@ fn end(model: &dyn EffectModel, scene: &Scene, tool: Tool, stroke: Stroke) -> St
 #[test]
 fn how_a_tool_is_cut_into_parts_and_in_which_order_changes_nothing() {
     let library = ToolLibrary::embedded().expect("the shipped tools");
-    let network = Network::new(EffectModels::weights().expect("the shipped weights"));
-    let models: [&dyn EffectModel; 2] = [&network, &Prior::default()];
+    let shipped = Network::new(EffectModels::weights().expect("the shipped weights"));
+    let random = Network::new(weights(64));
+    let models: [&dyn EffectModel; 3] = [&shipped, &random, &Prior::default()];
     let mut moved = 0;
-    for seed in 0..300 {
+    for seed in 0..1000 {
         let mut random = Pcg64::seed_from_u64(seed);
         let tools: Vec<_> = library.iter().filter(|tool| tool.pushes()).collect();
         let tool = Tool::clone(tools[seed as usize % tools.len()]);
         let (scene, stroke) = push(&tool, &mut random);
         let other = cut(&tool, &mut random);
         for model in models {
-            let [one, two] =
-                [&tool, &other].map(|tool| end(model, &scene, tool.clone(), stroke).poses[0]);
+            let one = end(model, &scene, tool.clone(), stroke).poses[0];
+            let two = end(model, &scene, other.clone(), stroke).poses[0];
             let apart = (one.position - two.position).norm();
             let turned = (one.heading - two.heading).abs();
             assert!(apart < SAME.0 && turned < SAME.1, "{seed} {}: {apart} m, {turned}", tool.name);
             moved += usize::from((one.position - scene.objects[0].pose.position).norm() > 0.01);
         }
     }
-    assert!(moved > 300, "{moved}");
+    assert!(moved > 1500, "{moved}");
+}
+
+#[test]
+fn touching_obstacles_are_one_body_however_they_are_cut() {
+    let pose = Pose::new(0.3, 0.1, 0.7);
+    let wall = |name: &str, length: f64, along: f64| {
+        Obstacle::new(name, [length, 0.05, 0.1], pose * Pose::new(along, 0.0, 0.0))
+    };
+    let box_ahead = || Object::cuboid("box", [0.05, 0.05, 0.1]).at(0.0, 0.0, 0.0);
+    let state = |walls: Vec<Obstacle>| {
+        let scene = walls.into_iter().fold(Scene::new([box_ahead()]), Scene::with_obstacle);
+        let physics = Physics::stated(&scene);
+        let bodies = Bodies::new(&scene, &crate::random_network::tool(), 0.002, &physics);
+        bodies.obstacles.iter().map(|one| one.body).collect::<Vec<_>>()
+    };
+    let whole = state(vec![wall("wall", 0.3, 0.0)]);
+    let cut = state(vec![wall("a", 0.1, -0.1), wall("b", 0.2, 0.05)]);
+    let apart = state(vec![wall("a", 0.1, -0.11), wall("b", 0.2, 0.05)]);
+    let numbers = |one: &AreaMoments| {
+        [one.area, one.first.x, one.first.y, one.second[0], one.second[1], one.second[2]]
+    };
+    for part in &cut {
+        for (a, b) in numbers(part).iter().zip(numbers(&whole[0])) {
+            assert!((a - b).abs() < 1e-12, "{a} {b}");
+        }
+    }
+    assert!(apart[0].area < 0.5 * whole[0].area, "a gap separates them");
 }
 
 #[test]

@@ -31,8 +31,7 @@ pub const HELP: &str = help!("");
 
 /// Text of `--help` for commands whose default models depend on the effort.
 pub const HELP_WITH_EFFORT: &str = help!(
-    ". prior>network names two models: a screening model for the many rollouts of a search, and a \
-     final model for the best of them [default: the models of the effort]"
+    " [default: network; planar,step=1/60 for pushes of ten and more objects]"
 );
 
 /// Text of `--help` for commands whose default is the network; lever-ups have their own text.

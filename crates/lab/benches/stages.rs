@@ -124,7 +124,7 @@ fn graph_and_network(criterion: &mut Criterion) {
     for (name, cases) in cases() {
         let mut batch = Batch::default();
         fill(&mut FrameSolver::default(), &mut batch, &frames(&cases));
-        let (mut buffers, mut corrections) = (Buffers::default(), Vec::new());
+        let (mut buffers, mut corrections) = (Buffers::default(), Corrections::default());
         group.bench_function(name, |b| {
             b.iter(|| forward.run(black_box(&batch), &mut buffers, &mut corrections));
         });

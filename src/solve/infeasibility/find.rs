@@ -13,7 +13,7 @@ use super::relaxed::{Case, Relaxed};
 use super::{Cause, Hints};
 
 /// Returns the cause that prevents a plan for `task`, or `None` if `progress` stops the search.
-/// Only the screening model is used, and plans are replayed as written only.
+/// The budgets belong to a coarse search, and plans are replayed as written only.
 pub(in crate::solve) fn cause(
     planner: &Planner,
     task: &Task,

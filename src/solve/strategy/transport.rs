@@ -150,8 +150,9 @@ fn followed(board: &mut Blackboard, pair: (usize, f64), legs: &[Leg]) -> Option<
     };
     let mut used = 0;
     let (workspace, situation) = (query.workspace(), query.situation);
+    let model = (query.planner.model(), settings);
     let followed =
-        follow(&workspace, situation, pair, legs, (query.planner.model(), settings), &mut used, query.progress);
+        follow(&workspace, situation, pair, legs, model, &mut used, query.progress);
     board.refiner.rollouts.count(used);
     Some(followed)
 }

@@ -11,8 +11,7 @@ use crate::bench::{PlanRow, PredictorRow, SuiteErrors, SuiteKind, TradeOffReport
 use crate::report::length;
 
 /// Families of levels: name, and prefixes of the names of their models. The first match counts.
-const FAMILIES: [(&str, &[&str]); 6] = [
-    ("analytic model screens, network decides", &["prior>"]),
+const FAMILIES: [(&str, &[&str]); 5] = [
     ("network", &["network"]),
     ("analytic model", &["prior"]),
     ("2-D simulation", &["planar"]),

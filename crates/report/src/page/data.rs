@@ -39,7 +39,7 @@ pub struct Data {
     /// Outcome in one line, also part of the file's title.
     #[serde(skip)]
     pub headline: String,
-    /// Screening and final model in a sentence; empty without a search.
+    /// Model in a sentence; empty without a search.
     pub models: String,
     pub stage: Stage,
     /// Quantity plotted over time, if it is not the distance from the goal.

@@ -1,4 +1,4 @@
-//! Search for lever-ups of a task with the screening model, and coarse simulation of the best.
+//! Search for lever-ups of a task with the effect model, and coarse simulation of the best.
 
 use std::sync::Arc;
 

@@ -20,17 +20,8 @@ use super::regression::Regression;
 /// frame by about a millimetre.
 const PRIORS: [f64; 5] = [0.005, 0.01, 0.02, 0.04, 0.08];
 
-/// Number of rounds in which pushes are rolled out again around the last mean.
-const ROUNDS: usize = 2;
-
 /// Number of folds of the cross-validation that chooses the prior.
 const FOLDS: usize = 5;
-
-/// Number of standard errors by which a head must improve on no head.
-///
-/// A third of the draws of 20 pushes yielded a head with one standard error, and these heads were
-/// worse on new pushes.
-const SURE: f64 = 2.0;
 
 /// Number of posterior directions kept: a file of about 60 KB. The other directions count as
 /// unknown, which never makes the stated spread narrower.
@@ -119,8 +110,9 @@ impl Basis {
 
 /// Fits the last layer of `network` to `trials`, in addition to the parameters in `basis`.
 ///
-/// The result contains the change, its spread and the remaining noise. With too few pushes, or if
-/// held-out pushes are not predicted better, the change is zero or the earlier one.
+/// The result contains the change, its spread and the remaining noise. A change is shrunk by the
+/// uncertainty of its gain on held-out pushes, see [`Chosen::share`]. With too few pushes, or if
+/// held-out pushes are not predicted better, it is zero or the earlier one.
 ///
 /// # Errors
 /// Returns an error if the checksum of the weights cannot be computed.
@@ -142,8 +134,8 @@ pub fn learn(
         let pairs = fitted.par_iter().zip(&moves);
         pairs.map(|(trial, moves)| observed(&network, trial, moves)).collect()
     };
-    let Some(mut head) = Head::new(fit.head.clone(), half) else { return Ok(fit) };
-    let mut seen = look(&head);
+    let Some(head) = Head::new(fit.head.clone(), half) else { return Ok(fit) };
+    let seen = look(&head);
     let fewest = if before.is_some() { 1 } else { FEWEST };
     if seen.iter().flatten().count() < fewest {
         return Ok(fit);
@@ -155,19 +147,17 @@ pub fn learn(
             None => new,
         }
     };
-    let prior = match before {
-        Some(before) => before.spread.prior,
-        None => choose(network, &fitted, &moves, &seen, settings, least).unwrap_or(0.0),
+    let chosen = match before {
+        Some(before) => Some(Chosen { prior: before.spread.prior, share: 1.0 }),
+        None => choose(network, &fitted, &moves, &seen, settings, least),
     };
-    for _ in 0..ROUNDS {
-        let regression = regression(&seen, &head);
-        let Some(solved) = regression.solve(prior) else { break };
-        let Some(next) = Head::new(solved.mean.clone(), half) else { break };
-        let ends = look(&next);
-        // A step that the rollouts do not confirm is rejected.
-        if loss(&ends, solved.noise) > loss(&seen, solved.noise) {
-            break;
-        }
+    let Chosen { prior, share } = chosen.unwrap_or_default();
+    let regression = regression(&seen, &head);
+    if let Some(solved) = regression.solve(prior)
+        && let Some(next) = Head::new(solved.mean.clone(), half).map(|head| head.scaled(share))
+        // A change that the rollouts do not confirm is rejected.
+        && loss(&look(&next), solved.noise) <= loss(&seen, solved.noise)
+    {
         let directions = regression.directions(&solved, DIRECTIONS);
         let narrowed = directions.into_iter().map(|(left, direction)| Narrowed {
             left,
@@ -175,11 +165,7 @@ pub fn learn(
         });
         fit.spread = HeadSpread { prior: solved.prior, directions: narrowed.collect() };
         fit.noise = solved.noise;
-        fit.head = solved.mean;
-        if next.is_none() {
-            break;
-        }
-        (head, seen) = (next, ends);
+        fit.head = next.values().to_vec();
     }
     Ok(fit)
 }
@@ -191,9 +177,18 @@ fn with_fit(fit: &TableFit, trial: &Trial) -> Trial {
     trial
 }
 
-/// Returns the prior with the best predictions of held-out pushes.
-///
-/// Returns `None` unless it is better than no head by more than [`SURE`] standard errors.
+/// A prior, and the share of the change that is kept.
+#[derive(Clone, Copy, Debug, Default)]
+struct Chosen {
+    /// Standard deviation of the prior.
+    prior: f64,
+    /// Share of the change: g^2 / (g^2 + e^2) for a gain g with the standard error e, the share of
+    /// an uncertain effect with the least square error.
+    share: f64,
+}
+
+/// Returns the prior with the best predictions of held-out pushes; `None` if none is better than no
+/// head.
 fn choose(
     network: &Network,
     trials: &[Trial],
@@ -201,7 +196,7 @@ fn choose(
     seen: &[Vec<Observed>],
     settings: &HeadSettings,
     least: f64,
-) -> Option<f64> {
+) -> Option<Chosen> {
     let half = network.effect_width();
     let left_out = |fold: usize, k: usize| k % FOLDS == fold;
     let folds: Vec<Regression> = (0..FOLDS)
@@ -226,7 +221,8 @@ fn choose(
     let (prior, gains) = tried.into_iter().max_by(|a, b| mean(&a.1).total_cmp(&mean(&b.1)))?;
     let (count, gain) = (gains.len() as f64, mean(&gains));
     let square: f64 = gains.iter().map(|one| (one - gain).powi(2)).sum();
-    (gain > SURE * (square / (count - 1.0) / count).sqrt()).then_some(prior)
+    let share = gain * gain / (gain * gain + square / (count - 1.0) / count);
+    (gain > 0.0).then_some(Chosen { prior, share })
 }
 
 /// Returns the summed final error of `network` over the objects that move: position and rotation at

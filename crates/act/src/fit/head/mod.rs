@@ -2,12 +2,10 @@
 //!
 //! The change θ of the last layer has the prior N(0, s² I). The final poses of a recorded push are
 //! y = J θ + noise, with J from [`Sensitivity`] and Student's noise. This regression is solved by
-//! iterative reweighting (Lange, Little and Taylor 1989, doi:10.2307/2290063) and linearised again
-//! around each mean (Gauss-Newton).
+//! iterative reweighting (Lange, Little and Taylor 1989, doi:10.2307/2290063).
 //!
-//! The deviation s is chosen by rollouts of held-out pushes. No head is among the candidates and is
-//! kept unless another is better by more than two standard errors (Breiman et al. 1984, section
-//! 3.4.3, use one).
+//! The deviation s is chosen by rollouts of held-out pushes. No head is among the candidates; the
+//! change of another is shrunk by the uncertainty of its gain.
 
 mod learn;
 mod observed;

@@ -10,7 +10,6 @@
 //! unless bodies have to be moved out of each other.
 
 use pushplan::{
-    contact::Bodies,
     effect::{EffectModel, Network, without_guesses},
     graph::Corrections,
     network::{Buffers, HEAD_OUTPUTS, Head},
@@ -36,15 +35,15 @@ impl Sensitivity {
         let job = without_guesses(job);
         let half = network.effect_width();
         let mut rows = vec![vec![0.0; Head::len_of(half)]; 3 * scene.objects.len()];
+        let jobs = std::slice::from_ref(&job);
+        let rolled = network.rollout(scene, jobs, Record::Frames).into_iter().next();
+        let trajectory = rolled.unwrap_or_else(|| Trajectory::new(network.spec().clone()));
         let mut roller = Roller::new(network.spec().clone(), network.settings());
-        let (readings, batch) = roller.read(scene, std::slice::from_ref(&job), Record::Frames);
-        let (mut buffers, mut corrections) = (Buffers::default(), Corrections::default());
-        network.forward().run(batch, &mut buffers, &mut corrections);
-        let Some(reading) = readings.into_iter().next() else {
-            return Self { trajectory: Trajectory::new(network.spec().clone()), rows };
-        };
+        let (readings, batch) = roller.read(scene, jobs, Record::Outcome);
+        let mut buffers = Buffers::default();
+        network.forward().run(batch, &mut buffers, &mut Corrections::default());
         let (even, odd) = buffers.hidden().split_at(buffers.hidden().len() / 2);
-        for read in &reading.reads {
+        for read in readings.iter().flat_map(|reading| &reading.reads) {
             let from = read.node as usize * half;
             let hidden = even[from..from + half].iter().chain(&odd[from..from + half]);
             let hidden: Vec<f64> = hidden.map(|value| f64::from(*value)).collect();
@@ -60,8 +59,6 @@ impl Sensitivity {
                 }
             }
         }
-        let motion = job.motion.slide();
-        let bodies = Bodies::new(scene, &motion.tool, motion.lift, &job.physics);
-        Self { trajectory: reading.corrected(&bodies, &corrections), rows }
+        Self { trajectory, rows }
     }
 }

@@ -23,7 +23,7 @@ const SETS: [(&str, Preset, Truth, u64, u64); 4] = [
     ("planar", Preset::Placed, Truth::Planar, 8000, 300),
     ("3d", Preset::Placed, Truth::Spatial, 20_000, 300),
     ("mujoco", Preset::Placed, Truth::Mujoco, 3600, 200),
-    ("crowds", Preset::Crowds, Truth::Both, 400, 40),
+    ("crowds", Preset::Crowds, Truth::Both, 1600, 40),
 ];
 
 /// Train the physics predictor
@@ -31,7 +31,7 @@ const SETS: [(&str, Preset, Truth, u64, u64); 4] = [
 #[command(
     after_help = "The data are crowds, and pushes with tools simulated by three engines: the 2-D \
 engine, the 3-D engine and MuJoCo. MuJoCo needs a Python with the package `mujoco`; \
-PUSHPLAN_PYTHON names it. The data take 20 minutes of a core, those of MuJoCo an hour; the \
+PUSHPLAN_PYTHON names it. The data take 20 minutes of a core, and MuJoCo an hour; the \
 training takes some minutes.
 
 curves.svg in the folder of the run shows the held-out errors. After the whole schedule, the \

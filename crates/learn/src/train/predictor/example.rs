@@ -27,6 +27,9 @@ const MIDWAY: f32 = 0.5;
 const TURN: f32 = 0.5;
 const CYLINDER: f32 = 0.05;
 
+/// Path of an object in a usual push, metres.
+const USUAL_PATH: f64 = 0.1;
+
 /// Millimetres in a metre: the unit of targets and losses.
 const MILLIMETRES: f64 = 1e3;
 
@@ -46,7 +49,7 @@ struct Target {
     change: [f32; 3],
     /// Weights of position and heading in the loss.
     weights: [f32; 2],
-    /// Shares of the readouts in the prediction that is compared.
+    /// Weights of the readouts that are compared with it.
     readouts: [f32; READOUTS],
 }
 
@@ -76,7 +79,7 @@ pub(super) struct Supervised {
     pub changes: Vec<f32>,
     /// Weights of position and heading, [T, 2].
     pub weights: Vec<f32>,
-    /// Shares of the readouts, [T, READOUTS].
+    /// Weights of the readouts, [T, READOUTS].
     pub readouts: Vec<f32>,
 }
 
@@ -156,7 +159,7 @@ impl Supervised {
     }
 }
 
-/// Returns the shares of the readouts that an engine trains: its own, or all of them for the 2-D
+/// Returns the weights of the readouts that an engine trains: its own, or all of them for the 2-D
 /// engine.
 fn readouts(truth: Truth, crowd: bool) -> [f32; READOUTS] {
     match truth {
@@ -171,8 +174,7 @@ fn readouts(truth: Truth, crowd: bool) -> [f32; READOUTS] {
 fn push(episode: &Episode, readouts: [f32; READOUTS]) -> Option<Push> {
     let scene = &episode.scene;
     let mut job = Job::stated(scene, episode.motion.clone());
-    // Uniform supports are often an assumption: with every second of them, the network is not told
-    // that they are known.
+    // Uniform supports are often an assumption: every second of them counts as unknown.
     let even = scene.objects.iter().all(|object| object.support == Support::Even);
     Arc::make_mut(&mut job.physics).supports_known = !even || episode.index.is_multiple_of(2);
     let settings = RollSettings { corrected: CORRECTED, ..RollSettings::default() };
@@ -196,6 +198,9 @@ fn push(episode: &Episode, readouts: [f32; READOUTS]) -> Option<Push> {
             let turn = MILLIMETRES * first.support * turn;
             let heading = if object.shape.is_cylinder() { CYLINDER } else { TURN };
             let target = push.targets.len() as u32;
+            // Errors grow with the path.
+            let path: f64 = own.iter().map(|read| read.length).sum();
+            let weight = weight / (1.0 + path / USUAL_PATH) as f32;
             push.targets.push(Target {
                 change: [shift.x, shift.y, turn].map(|value| value as f32),
                 weights: [weight, weight * heading],
@@ -216,5 +221,9 @@ fn push(episode: &Episode, readouts: [f32; READOUTS]) -> Option<Push> {
             aim(middle, &frames[middle].state, &episode.frames[middle].state, MIDWAY);
         }
     }
+    // A push counts once, whatever the number of its objects.
+    let share = 1.0 / push.targets.len() as f32;
+    let weights = push.targets.iter_mut().flat_map(|target| &mut target.weights);
+    weights.for_each(|weight| *weight *= share);
     (!push.targets.is_empty()).then_some(push)
 }

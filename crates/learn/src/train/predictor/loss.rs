@@ -1,6 +1,6 @@
 //! Loss of whole pushes: pseudo-Huber on the error of every pose.
 
-use candle_core::{D, Device, Result, Tensor};
+use candle_core::{Device, Result, Tensor};
 use pushplan::internals::graph::{OUTPUT_EVEN, OUTPUT_ODD, READOUTS};
 use pushplan::internals::network::MOST_CHANGE;
 
@@ -11,7 +11,8 @@ use super::example::Supervised;
 /// Pushes at the edge of slipping off are unpredictable and must not dominate the weights.
 const KNEE: f64 = 0.5;
 
-/// Returns the mean loss of `count` pushes, millimetres. `outputs` are those of all nodes, [N, 6].
+/// Returns the mean loss of `count` pushes, millimetres. `outputs` are the rows of all nodes,
+/// [N, 6].
 pub(super) fn loss(outputs: &Tensor, drawn: &Supervised, count: usize) -> Result<Tensor> {
     let Supervised { nodes, targets, scales, changes, weights, readouts, .. } = drawn;
     let (rows, all) = (nodes.len(), changes.len() / 3);
@@ -33,22 +34,25 @@ pub(super) fn loss(outputs: &Tensor, drawn: &Supervised, count: usize) -> Result
     let of = |rate: Tensor| rate.contiguous()?.index_select(&nodes, 0);
     let (along, across) = (of((x * &shift)?)?, of((y * &shift)?)?);
     let turn = of((&turn * share(turn.sqr()?)?)?)?;
-    let sum = |change: Tensor| -> Result<Tensor> {
+    let sum = |change: Tensor| {
         let zeros = Tensor::zeros((all, READOUTS), change.dtype(), &Device::Cpu)?;
-        let shares = table(readouts, all, READOUTS)?;
-        (zeros.index_add(&targets, &change, 0)? * shares)?.sum(D::Minus1)
+        zeros.index_add(&targets, &change, 0)
     };
     let to_x = (along.broadcast_mul(&scale(0)?)? - across.broadcast_mul(&scale(1)?)?)?;
     let to_y = (along.broadcast_mul(&scale(1)?)? + across.broadcast_mul(&scale(0)?)?)?;
     let to_turn = turn.broadcast_mul(&scale(2)?)?;
     let (changes, weights) = (table(changes, all, 3)?, table(weights, all, 2)?);
-    let off = |change: Tensor, k: usize| sum(change)? - changes.narrow(1, k, 1)?.squeeze(1)?;
-    let huber = |square: Tensor, k: usize| -> Result<Tensor> {
+    let readouts = table(readouts, all, READOUTS)?;
+    // Squared errors of every readout, [T, READOUTS].
+    let square = |change: Tensor, k: usize| {
+        sum(change)?.broadcast_sub(&changes.narrow(1, k, 1)?)?.sqr()
+    };
+    let huber = |square: Tensor, k: usize| {
         // The argument of the root is at least one, so the gradient is finite.
         let value = ((((square / (KNEE * KNEE))? + 1.0)?.sqrt()? - 1.0)? * KNEE)?;
-        (value * weights.narrow(1, k, 1)?.squeeze(1)?)?.sum_all()
+        (value * readouts.broadcast_mul(&weights.narrow(1, k, 1)?)?)?.sum_all()
     };
-    let position = (off(to_x, 0)?.sqr()? + off(to_y, 1)?.sqr()?)?;
-    let heading = off(to_turn, 2)?.sqr()?;
-    (huber(position, 0)? + huber(heading, 1)?)? / count as f64
+    let position = huber((square(to_x, 0)? + square(to_y, 1)?)?, 0)?;
+    let heading = huber(square(to_turn, 2)?, 1)?;
+    (position + heading)? / count as f64
 }
