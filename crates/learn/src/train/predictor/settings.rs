@@ -28,7 +28,7 @@ impl Default for PredictorSettings {
                 evaluate_every: 500,
                 learning_rate: 1e-3,
                 warm_up: 500,
-                weight_decay: 0.03,
+                weight_decay: 0.05,
                 clip: 1.0,
                 average: 0.999,
             },
