@@ -86,8 +86,8 @@ impl Change {
         }
     }
 
-    /// Returns displacement and rotation: the mean m of the readouts, shrunk by m^2 / (m^2 + d^2) where
-    /// they differ from it by d. Engines that agree are followed, and opposite ones cancel.
+    /// Returns displacement and rotation: the mean m of the readouts, shrunk by m^2 / (m^2 + d^2)
+    /// where they differ from it by d. Engines that agree are followed, and opposite ones cancel.
     fn mean(&self) -> (Vector, f64) {
         let mean =
             |k: usize| self.readouts.iter().map(|sum| sum[k]).sum::<f64>() / READOUTS as f64;

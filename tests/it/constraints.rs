@@ -84,7 +84,8 @@ fn keep_out_areas_are_bypassed_by_the_named_bodies() {
     assert_eq!(found.status, PlanStatus::Solved);
     assert_eq!(followed(&found, region).2, 0);
 
-    // If the hand must keep its distance, a long tool is used.
+    // If the hand must keep its distance, the finger is too short.
+    let free = solved(&task(&CAN.replace("[finger, stick]", "[finger]")));
     let hand = keeping_out(&circle("hand").replace("radius: 0.04", "radius: 0.3"));
     let found = solved(&hand);
     assert_eq!(found.status, PlanStatus::Solved);
@@ -128,13 +129,13 @@ fn regions_of_every_outline_are_written_and_read() {
     assert!(fault(bent).contains("convex"), "{}", fault(bent));
 }
 
-/// Box with a cap in front of it, which is pushed over the table's end.
+/// Box with a long cap across in front of it, which is pushed over the table's end.
 const CAP: &str = "
 scene:
   table: {size: [0.5, 1], position: [0.45, 0]}
   objects:
     - {name: box, shape: {cuboid: {size: [0.06, 0.06, 0.06]}}, mass: 0.4, friction: 0.4, position: [0.5, 0]}
-    - {name: cap, shape: {cylinder: {radius: 0.02, height: 0.03}}, mass: 0.05, friction: 0.4, position: [0.62, 0]}
+    - {name: cap, shape: {cuboid: {size: [0.03, 0.14, 0.03]}}, mass: 0.05, friction: 0.4, position: [0.62, 0]}
 robot: {reach: {min: 0.05, max: 0.95}, hand: none}
 tools: [finger, paddle]
 pushes: {directions: [0], length: 0.2, max_count: 1}

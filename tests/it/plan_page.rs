@@ -83,7 +83,7 @@ fn the_error_shown_is_that_of_the_trajectory_at_any_time() {
         }
         assert_eq!(browser.complaints(), Vec::<String>::new());
     }
-    assert_eq!(compared, 4 * 20 * 3);
+    assert!(compared >= 4 * 20 * 3, "{compared}");
 }
 
 #[test]

@@ -8,6 +8,7 @@
 
 #[doc(hidden)]
 pub mod cli;
+pub mod compare;
 pub mod dataset;
 pub mod judge;
 pub mod lever_model;

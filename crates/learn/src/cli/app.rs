@@ -10,7 +10,7 @@ use pushplan_command::groups::Groups;
 use pushplan_command::session::{GlobalArgs, Session};
 use pushplan_command::{exit_code, start};
 
-use super::{generate, merge, train};
+use super::{compare, generate, merge, train};
 
 /// Generates training data by simulation, and trains the networks of pushplan on it.
 #[derive(Debug, Parser)]
@@ -24,6 +24,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Compare(compare::CompareArgs),
     Generate(generate::GenerateArgs),
     Merge(merge::MergeArgs),
     Status(StatusArgs),
@@ -31,7 +32,7 @@ enum Command {
 }
 
 /// Groups of commands, in the order of `--help`.
-const GROUPS: Groups = &[("Data", &["generate", "merge", "status"]), ("Weights", &["train"])];
+const GROUPS: Groups = &[("Data", &["generate", "merge", "status"]), ("Weights", &["train", "compare"])];
 
 /// Runs the command with the given arguments, starting with the program name, and returns its exit
 /// code.
@@ -41,6 +42,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
 
 fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
     match &cli.command {
+        Command::Compare(args) => compare::run(args, session),
         Command::Generate(args) => generate::run(args, session),
         Command::Merge(args) => merge::run(args, session),
         Command::Status(args) => status::run(args, session).map(|()| exit_code::DONE),

@@ -1,6 +1,7 @@
 //! Command `pushplan-learn`: one file per subcommand.
 
 mod app;
+mod compare;
 pub mod generate;
 mod merge;
 pub mod train;
