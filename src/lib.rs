@@ -132,8 +132,8 @@ pub use error::Error;
 pub use geometry::{ConvexPolygon, PolygonError, Pose, Shape, Vector};
 pub use outcome::{Outcome, Record, Trajectory, Verdict, Warning};
 pub use scene::{
-    Blade, Body, Joint, JointKind, ModelSpec, Object, ObservedPose, Obstacle, Part,
-    Physics, Robot, Scene, Situation, State, TableFit, Tool, Unknowns,
+    Blade, Body, Joint, JointKind, ModelSpec, Object, ObservedPose, Obstacle, Part, Physics, Robot,
+    Scene, Situation, State, TableFit, Tool, Unknowns,
 };
 pub use sim::Simulator;
 pub use solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};

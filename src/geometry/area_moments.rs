@@ -32,11 +32,8 @@ impl AreaMoments {
         };
         // Covariance about the centroid, rotated and moved.
         let (sin, cos) = pose.heading.sin_cos();
-        let (xx, xy, yy) = (
-            xx - middle.x * middle.x,
-            xy - middle.x * middle.y,
-            yy - middle.y * middle.y,
-        );
+        let (xx, xy, yy) =
+            (xx - middle.x * middle.x, xy - middle.x * middle.y, yy - middle.y * middle.y);
         let at = pose.point(middle);
         let along = cos * cos * xx - 2.0 * sin * cos * xy + sin * sin * yy;
         let across = sin * sin * xx + 2.0 * sin * cos * xy + cos * cos * yy;
@@ -55,11 +52,8 @@ impl AreaMoments {
     pub fn spread(&self, axis: Vector) -> [f64; 3] {
         let centre = self.centre();
         let [xx, xy, yy] = self.second.map(|sum| sum / self.area);
-        let (xx, xy, yy) = (
-            xx - centre.x * centre.x,
-            xy - centre.x * centre.y,
-            yy - centre.y * centre.y,
-        );
+        let (xx, xy, yy) =
+            (xx - centre.x * centre.x, xy - centre.x * centre.y, yy - centre.y * centre.y);
         let (x, y) = (axis.x, axis.y);
         [
             x * x * xx + 2.0 * x * y * xy + y * y * yy,

@@ -89,8 +89,7 @@ impl Change {
     /// Returns displacement and rotation: the mean m of the readouts, shrunk by m^2 / (m^2 + d^2)
     /// where they differ from it by d. Engines that agree are followed, and opposite ones cancel.
     fn mean(&self) -> (Vector, f64) {
-        let mean =
-            |k: usize| self.readouts.iter().map(|sum| sum[k]).sum::<f64>() / READOUTS as f64;
+        let mean = |k: usize| self.readouts.iter().map(|sum| sum[k]).sum::<f64>() / READOUTS as f64;
         let (shift, turn) = (Vector::new(mean(0), mean(1)), mean(2));
         let Spread { position, heading } = self.apart();
         let share = |m: f64, d: f64| if m == 0.0 { 0.0 } else { m * m / (m * m + d * d) };

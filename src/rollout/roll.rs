@@ -76,12 +76,7 @@ impl Roller {
 
     /// Rolls out every job by the analytic model, and returns the motions that the network corrects
     /// with the graphs that it reads.
-    pub fn read(
-        &mut self,
-        scene: &Scene,
-        jobs: &[Job],
-        record: Record,
-    ) -> (Vec<Reading>, &Batch) {
+    pub fn read(&mut self, scene: &Scene, jobs: &[Job], record: Record) -> (Vec<Reading>, &Batch) {
         let (casts, cast) = casts(scene, jobs);
         let bodies: Vec<&Bodies> = cast.iter().map(|&cast| &casts[cast]).collect();
         let readings = self.run(scene, jobs, &bodies, record, true);

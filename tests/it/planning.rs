@@ -7,8 +7,8 @@ use std::sync::Arc;
 use pushplan::effect::Simulated;
 use pushplan::geometry::{Pose, Shape, Vector, clearance, travel_to_contact};
 use pushplan::plan::{
-    Candidate, CandidatePush, Infeasible, RefineSettings, RefineStatistics, Rollouts,
-    STAND_OFF, Search, SearchSettings, Start, Workspace, evaluate, refine,
+    Candidate, CandidatePush, Infeasible, RefineSettings, RefineStatistics, Rollouts, STAND_OFF,
+    Search, SearchSettings, Start, Workspace, evaluate, refine,
 };
 use pushplan::progress::NoProgress;
 use pushplan::sim::Simulator;
@@ -321,13 +321,7 @@ fn refinement_never_makes_a_candidate_worse() {
         }
         let candidates: Vec<Candidate> =
             found.iter().take(6).map(|f| f.candidate.clone()).collect();
-        let settings = RefineSettings {
-            rounds: 3,
-            extra: 2,
-            seed: 1,
-            enough: 6,
-            rollouts: 1000,
-        };
+        let settings = RefineSettings { rounds: 3, extra: 2, seed: 1, enough: 6, rollouts: 1000 };
         let mut statistics = RefineStatistics::default();
         let refined =
             refine(&space, &mut rollouts, &candidates, settings, &mut statistics, &NoProgress);

@@ -205,8 +205,7 @@ fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
     // twice.
     let answers = recorder.answers.into_inner().unwrap();
     let known: Vec<&str> = answers.iter().map(|one| one.split_once(": ").unwrap().1).collect();
-    let all =
-        ["the search predicts success", "success is predicted after refinement", "passes"];
+    let all = ["the search predicts success", "success is predicted after refinement", "passes"];
     assert_eq!(known, all, "{answers:?}");
     assert!(answers.iter().all(|one| one.contains(", 1 push: ")), "{answers:?}");
 }

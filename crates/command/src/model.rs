@@ -30,9 +30,8 @@ macro_rules! help {
 pub const HELP: &str = help!("");
 
 /// Text of `--help` for commands whose default models depend on the effort.
-pub const HELP_WITH_EFFORT: &str = help!(
-    " [default: network; planar,step=1/60 for pushes of ten and more objects]"
-);
+pub const HELP_WITH_EFFORT: &str =
+    help!(" [default: network; planar,step=1/60 for pushes of ten and more objects]");
 
 /// Text of `--help` for commands whose default is the network; lever-ups have their own text.
 pub const HELP_WITH_NETWORK: &str = help!(" [default: network]");

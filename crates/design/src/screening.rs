@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use pushplan::effect::EffectModel;
 use pushplan::plan::{
-    CostToGo, REFINABLE, RefineSettings, RefineStatistics, Refined, Rollouts, Search,
-    Uncertainty, Workspace, refine,
+    CostToGo, REFINABLE, RefineSettings, RefineStatistics, Refined, Rollouts, Search, Uncertainty,
+    Workspace, refine,
 };
 use pushplan::progress::{Progress, Quiet};
 use pushplan::scene::{Situation, Tool};

@@ -11,8 +11,8 @@ use pushplan::effect::{EffectModel, EffectModels, Network, Prior, Simulated};
 use pushplan::graph::{Batch, Corrections};
 use pushplan::network::{Buffers, Forward};
 use pushplan::plan::{
-    QpProblem, QpSolver, RefineSettings, RefineStatistics, Rollouts, Search,
-    SearchSettings, Workspace, refine,
+    QpProblem, QpSolver, RefineSettings, RefineStatistics, Rollouts, Search, SearchSettings,
+    Workspace, refine,
 };
 use pushplan::progress::NoProgress;
 use pushplan::sim::Simulator;

@@ -21,7 +21,9 @@ const KINDS: [(&str, fn(&Episode) -> bool); 7] = [
     ("several objects", |one| one.scene.objects.len() > 1),
     ("obstacles", is_walled),
     ("long boxes", is_long),
-    ("fast", |one| one.motion.strokes.iter().any(|stroke| stroke.travel() > FAST * stroke.duration)),
+    ("fast", |one| {
+        one.motion.strokes.iter().any(|stroke| stroke.travel() > FAST * stroke.duration)
+    }),
     ("sticky", |one| one.scene.objects.iter().any(|object| object.friction > STICKY)),
 ];
 
@@ -82,9 +84,8 @@ fn push(model: &dyn EffectModel, episode: &Episode) -> Option<Push> {
     let own = Comparison::of(model, &trial);
     let [prior, ends] = [Comparison::of(&Prior::default(), &trial).end(), own.end()];
     let moved: Vec<usize> = (0..ends.len()).filter(|&k| ends[k].moved()).collect();
-    let error = |ends: &[ObjectError]| {
-        mean(&moved.iter().map(|&k| ends[k].position).collect::<Vec<_>>())
-    };
+    let error =
+        |ends: &[ObjectError]| mean(&moved.iter().map(|&k| ends[k].position).collect::<Vec<_>>());
     let spreads = &own.predicted().spreads;
     let stated = moved.iter().filter_map(|&k| {
         let spread = spreads.get(k).filter(|spread| spread.position > 0.0)?;

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use crate::plan::{
-    FollowSettings, Followed, Groups, Leg, Search, SearchResult,
-    Transport as Carrier, evaluate, follow,
+    FollowSettings, Followed, Groups, Leg, Search, SearchResult, Transport as Carrier, evaluate,
+    follow,
 };
 use crate::progress::Instant;
 use crate::scene::Tool;
@@ -151,8 +151,7 @@ fn followed(board: &mut Blackboard, pair: (usize, f64), legs: &[Leg]) -> Option<
     let mut used = 0;
     let (workspace, situation) = (query.workspace(), query.situation);
     let model = (query.planner.model(), settings);
-    let followed =
-        follow(&workspace, situation, pair, legs, model, &mut used, query.progress);
+    let followed = follow(&workspace, situation, pair, legs, model, &mut used, query.progress);
     board.refiner.rollouts.count(used);
     Some(followed)
 }

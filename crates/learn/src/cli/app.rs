@@ -32,7 +32,8 @@ enum Command {
 }
 
 /// Groups of commands, in the order of `--help`.
-const GROUPS: Groups = &[("Data", &["generate", "merge", "status"]), ("Weights", &["train", "compare"])];
+const GROUPS: Groups =
+    &[("Data", &["generate", "merge", "status"]), ("Weights", &["train", "compare"])];
 
 /// Runs the command with the given arguments, starting with the program name, and returns its exit
 /// code.

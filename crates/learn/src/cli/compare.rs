@@ -20,12 +20,14 @@ use super::train::data;
 
 /// Compare an effect model with the analytic model on data of any engine
 #[derive(Args, Debug)]
-#[command(after_help = "Errors are final positions, means over objects that move more than 1 cm. A \
+#[command(
+    after_help = "Errors are final positions, means over objects that move more than 1 cm. A \
 ratio below 1 is better than the analytic model. Use data of a seed that no training used.
 
 Example:
   pushplan-learn generate data/judge --preset placed --truth mujoco --episodes 420 --seed 23
-  pushplan-learn compare data/judge")]
+  pushplan-learn compare data/judge"
+)]
 pub struct CompareArgs {
     /// Folder of data from `generate`
     #[arg(value_name = "DIR")]

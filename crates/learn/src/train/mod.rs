@@ -26,9 +26,7 @@ pub use lever::{
 };
 pub use log::Line;
 pub use optimiser::AdamW;
-pub use predictor::{
-    Examples, HeldOutError, PredictorSettings, rollout_error, train_predictor,
-};
+pub use predictor::{Examples, HeldOutError, PredictorSettings, rollout_error, train_predictor};
 pub use regulator::{RegulatorScore, RegulatorSettings, score, train_regulator};
 pub use trainable::Trainable;
 pub use trainer::{BEST, LAST, REPLICAS, TrainError, Trainer};

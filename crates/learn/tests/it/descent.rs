@@ -11,8 +11,7 @@ use pushplan::progress::{NoProgress, Progress};
 use pushplan_bench::store::{FolderLock, StoreError};
 use pushplan_learn::dataset::{Dataset, DatasetConfig, Preset};
 use pushplan_learn::train::{
-    CheckpointError, Descent, HeldOutError, Line, PredictorSettings, TrainError,
-    train_predictor,
+    CheckpointError, Descent, HeldOutError, Line, PredictorSettings, TrainError, train_predictor,
 };
 
 fn settings(steps: u64) -> PredictorSettings {

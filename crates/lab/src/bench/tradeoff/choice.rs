@@ -40,8 +40,7 @@ pub fn choose_efforts(plans: &[PlanRow], noise: Noise) -> BTreeMap<Effort, PlanL
 /// Returns the cheapest level with the analytic model alone that is cheaper than `row` and as
 /// robust. The costs must differ by more than the noise, the robustness by no more than the noise.
 pub fn prior_instead<'a>(plans: &'a [PlanRow], row: &PlanRow, noise: Noise) -> Option<&'a PlanRow> {
-    let alone =
-        |level: &PlanLevel| level.model == ModelKind::PRIOR.into();
+    let alone = |level: &PlanLevel| level.model == ModelKind::PRIOR.into();
     plans
         .iter()
         .filter(|other| other.is_complete() && alone(&other.level))

@@ -117,11 +117,7 @@ impl Examples {
     }
 
     /// Draws `count` pushes with the random numbers of (`seed`, `step`, `part`).
-    pub(super) fn draw(
-        &self,
-        (seed, step, part): (u64, u64, u64),
-        count: usize,
-    ) -> Supervised {
+    pub(super) fn draw(&self, (seed, step, part): (u64, u64, u64), count: usize) -> Supervised {
         let mut random = Pcg64::new(
             (u128::from(seed) << 64) | u128::from(step),
             0xa02b_dbf7_bb3c_00a7_u128 ^ (u128::from(part) << 8),

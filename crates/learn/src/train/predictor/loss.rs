@@ -27,9 +27,7 @@ pub(super) fn loss(outputs: &Tensor, drawn: &Supervised, count: usize) -> Result
     let x = outputs.narrow(1, 0, OUTPUT_EVEN)?;
     let odd = outputs.narrow(1, OUTPUT_EVEN, OUTPUT_ODD)?.reshape(((), READOUTS, 2))?;
     let (y, turn) = (odd.narrow(2, 0, 1)?.squeeze(2)?, odd.narrow(2, 1, 1)?.squeeze(2)?);
-    let share = |square: Tensor| {
-        ((square / (MOST_CHANGE * MOST_CHANGE))? + 1.0)?.sqrt()?.recip()
-    };
+    let share = |square: Tensor| ((square / (MOST_CHANGE * MOST_CHANGE))? + 1.0)?.sqrt()?.recip();
     let shift = share((x.sqr()? + y.sqr()?)?)?;
     let of = |rate: Tensor| rate.contiguous()?.index_select(&nodes, 0);
     let (along, across) = (of((x * &shift)?)?, of((y * &shift)?)?);
@@ -44,9 +42,8 @@ pub(super) fn loss(outputs: &Tensor, drawn: &Supervised, count: usize) -> Result
     let (changes, weights) = (table(changes, all, 3)?, table(weights, all, 2)?);
     let readouts = table(readouts, all, READOUTS)?;
     // Squared errors of every readout, [T, READOUTS].
-    let square = |change: Tensor, k: usize| {
-        sum(change)?.broadcast_sub(&changes.narrow(1, k, 1)?)?.sqr()
-    };
+    let square =
+        |change: Tensor, k: usize| sum(change)?.broadcast_sub(&changes.narrow(1, k, 1)?)?.sqr();
     let huber = |square: Tensor, k: usize| {
         // The argument of the root is at least one, so the gradient is finite.
         let value = ((((square / (KNEE * KNEE))? + 1.0)?.sqrt()? - 1.0)? * KNEE)?;
