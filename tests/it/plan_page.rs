@@ -319,7 +319,7 @@ fn written_with(
     let best = solution.best().expect("a plan");
     let replays = best.replays(task, &situation);
     let recipe = |ranked: &RankedPlan| {
-        let model = Some(ranked.predicted.by.clone().into());
+        let model = Some(ranked.predicted.by.clone());
         let task = TaskSource::of(format!("tasks/{name}.yaml"));
         Origin { task, model, ..Origin::default() }.plan(&ranked.plan)
     };

@@ -67,7 +67,7 @@ impl Solved {
         let Some(best) = self.solution.best() else { return String::new() };
         let replays = best.replays(&self.task, &Situation::stated(&self.task.scene));
         let recipe = |ranked: &pushplan::RankedPlan| {
-            let model = Some(ranked.predicted.by.clone().into());
+            let model = Some(ranked.predicted.by.clone());
             Origin { task: self.source.clone(), model, ..Origin::default() }.plan(&ranked.plan)
         };
         solution_page(&self.task, &self.solution, &replays, &recipe, PageView::Above)

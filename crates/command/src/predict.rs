@@ -208,7 +208,7 @@ fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, Cl
     args.poses.write(&rows)?;
     let mut document = prediction_document(&task, &plan, &effects);
     if let Some(out) = &args.out {
-        let recipe = args.library.origin(source, Some(spec.into())).plan(&plan);
+        let recipe = args.library.origin(source, Some(spec)).plan(&plan);
         let page = prediction_page(&task, &tools, &plan, &trajectories, recipe, args.page);
         let mut written =
             vec![output::write(out, &format!("{}.predict.html", task.name), page.as_bytes())?];

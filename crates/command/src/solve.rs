@@ -211,7 +211,7 @@ impl Results<'_> {
         let figures = plan_figures(task, best, &replays, name, self.animate);
         written.extend(output::write_figures(out, &figures)?);
         let recipe = |ranked: &RankedPlan| {
-            let model = Some(ranked.predicted.by.clone().into());
+            let model = Some(ranked.predicted.by.clone());
             (self.origin)(model).plan(&ranked.plan)
         };
         let page = solution_page(task, solution, &replays, &recipe, self.page);

@@ -14,8 +14,11 @@ const LONG: f64 = 3.0;
 const FAST: f64 = 0.2;
 const STICKY: f64 = 1.0;
 
+/// Name of a kind of pushes, and its test.
+type Kind = (&'static str, fn(&Episode) -> bool);
+
 /// Kinds of pushes; a push can be of several kinds.
-const KINDS: [(&str, fn(&Episode) -> bool); 7] = [
+const KINDS: [Kind; 7] = [
     ("all", |_| true),
     ("one object, no obstacle", |one| one.scene.objects.len() == 1 && !is_walled(one)),
     ("several objects", |one| one.scene.objects.len() > 1),
@@ -69,7 +72,7 @@ pub fn compared(model: &dyn EffectModel, data: &Dataset) -> Vec<Compared> {
         .par_iter()
         .filter_map(|episode| Some((episode, push(model, episode)?)))
         .collect();
-    let of_kind = |(kind, wanted): &(&'static str, fn(&Episode) -> bool)| {
+    let of_kind = |(kind, wanted): &Kind| {
         let own = pushes.iter().filter(|(episode, _)| wanted(episode));
         let own: Vec<&Push> = own.map(|(_, push)| push).collect();
         (!own.is_empty()).then(|| summary(kind, &own))

@@ -99,7 +99,7 @@ impl PySolution {
         let situation = Situation::stated(&task.scene);
         let replays = work::run(py, 0, |_| best.replays(task, &situation))?;
         let recipe = |ranked: &RankedPlan| {
-            let model = Some(ranked.predicted.by.clone().into());
+            let model = Some(ranked.predicted.by.clone());
             let task = source.clone();
             Origin { task, model, ..Origin::default() }.plan(&ranked.plan)
         };

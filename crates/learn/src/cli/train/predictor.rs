@@ -171,7 +171,6 @@ impl PredictorArgs {
                 learning_rate: self.learning_rate,
                 ..default.descent.in_steps(self.steps)
             },
-            ..default
         };
         for (name, even) in [("--width", self.width), ("--batch", self.batch)] {
             if even % 2 == 1 {
