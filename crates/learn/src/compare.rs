@@ -43,8 +43,8 @@ pub struct Compared {
     pub model: f64,
     /// Standard error of the ratio of both.
     pub ratio_error: f64,
-    /// Rank correlation of the expected with the actual error (Spearman); `None` if the model states
-    /// no errors.
+    /// Rank correlation of the expected with the actual error (Spearman); `None` if the model
+    /// states no errors.
     pub rank: Option<f64>,
     /// Share of the errors within the stated 90 %.
     pub within_90: Option<f64>,
