@@ -38,6 +38,8 @@ pub struct Correction {
     /// support's length c, of every readout. A change of 1 is as long as the motion itself, see
     /// [`Node::length`].
     pub readouts: [[f64; 3]; READOUTS],
+    /// Change by a head that was fitted to a table, likewise.
+    pub head: [f64; 3],
     /// Expected errors of position and of heading (at the support's length). `None` for a network
     /// that does not estimate errors.
     pub doubt: Option<[f64; 2]>,

@@ -191,7 +191,7 @@ impl Forward {
         let rows = even.chunks_exact(OUTPUT_EVEN).zip(odd.chunks_exact(OUTPUT_ODD));
         nodes.extend(rows.map(|(even, odd)| Correction {
             readouts: std::array::from_fn(|k| bounded([even[k], odd[2 * k], odd[2 * k + 1]])),
-            doubt: None,
+            ..Correction::default()
         }));
         if let Some(head) = &self.head {
             head.add(&w.next, nodes);

@@ -71,7 +71,7 @@ impl Head {
             for (k, values) in outputs.enumerate() {
                 let (of_even, of_odd) = values.split_at(self.half);
                 let change = dot(of_even, even) + dot(of_odd, odd);
-                correction.readouts.iter_mut().for_each(|readout| readout[k] += change);
+                correction.head[k] += change;
             }
         }
     }
@@ -80,17 +80,16 @@ impl Head {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::graph::READOUTS;
 
     #[test]
     fn every_output_reads_both_halves_of_its_own_row() {
         // h = 1, two nodes: rows (2, 3) and (5, 7).
         let head = Head::new(vec![1.0, 10.0, 0.0, 1.0, 1.0, 0.0], 1).expect("six numbers");
-        let one = Correction { readouts: [[1.0; 3]; READOUTS], doubt: None };
+        let one = Correction { head: [1.0; 3], ..Correction::default() };
         let mut corrections = [one; 2];
         head.add(&[2.0, 5.0, 3.0, 7.0], &mut corrections);
-        assert_eq!(corrections[0].readouts, [[33.0, 4.0, 3.0]; READOUTS]);
-        assert_eq!(corrections[1].readouts, [[76.0, 8.0, 6.0]; READOUTS]);
+        assert_eq!(corrections[0].head, [33.0, 4.0, 3.0]);
+        assert_eq!(corrections[1].head, [76.0, 8.0, 6.0]);
         assert!(Head::new(vec![0.0; 5], 1).is_none() && head.scaled(0.0).is_none());
     }
 }

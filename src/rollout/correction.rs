@@ -70,13 +70,15 @@ impl Read {
 #[derive(Clone, Copy, Debug, Default)]
 struct Change {
     readouts: [[f64; 3]; READOUTS],
+    head: [f64; 3],
     doubt: Option<Spread>,
 }
 
 impl Change {
     fn add(&mut self, read: &Read, correction: &Correction, share: f64) {
-        for (sum, readout) in self.readouts.iter_mut().zip(correction.readouts) {
-            let change = read.change(readout);
+        let head = [(&mut self.head, correction.head)];
+        for (sum, rate) in self.readouts.iter_mut().zip(correction.readouts).chain(head) {
+            let change = read.change(rate);
             (0..3).for_each(|k| sum[k] += share * change[k]);
         }
         if let Some([position, heading]) = correction.doubt {
@@ -88,12 +90,15 @@ impl Change {
 
     /// Returns displacement and rotation: the mean m of the readouts, shrunk by m^2 / (m^2 + d^2)
     /// where they differ from it by d. Engines that agree are followed, and opposite ones cancel.
+    /// The change of a head, learned from a table, is added as it is.
     fn mean(&self) -> (Vector, f64) {
         let mean = |k: usize| self.readouts.iter().map(|sum| sum[k]).sum::<f64>() / READOUTS as f64;
         let (shift, turn) = (Vector::new(mean(0), mean(1)), mean(2));
         let Spread { position, heading } = self.apart();
         let share = |m: f64, d: f64| if m == 0.0 { 0.0 } else { m * m / (m * m + d * d) };
-        (share(shift.norm(), position) * shift, share(turn, heading) * turn)
+        let [x, y, own] = self.head;
+        let shift = share(shift.norm(), position) * shift + Vector::new(x, y);
+        (shift, share(turn, heading) * turn + own)
     }
 
     /// Returns the distance of the readouts from their mean.

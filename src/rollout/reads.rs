@@ -3,20 +3,9 @@
 use crate::{
     contact::{Bodies, Motion, SceneIndex},
     geometry::Vector,
-    task::FrameStep,
 };
 
 use super::{correction::Read, stepper::Found};
-
-/// Rotation of the tool from which a frame is not read, rad/m: training contains no rotating tools,
-/// and planners make no such pushes.
-const ROTATES: f64 = 0.5;
-
-/// Returns `true` if the tool rotates in a frame.
-pub(super) fn rotates(step: &FrameStep) -> bool {
-    let travel = (step.to.position - step.from.position).norm();
-    (step.to.heading - step.from.heading).abs() > ROTATES * travel
-}
 
 /// Motions read so far, and the nodes to which the coming motions belong.
 #[derive(Clone, Debug)]

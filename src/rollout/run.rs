@@ -14,7 +14,7 @@ use super::{
     integrate::integrate,
     pressing::Pressing,
     reach::{Course, Listed, Reach},
-    reads::{Reads, rotates},
+    reads::Reads,
     settings::RollSettings,
     stepper::{Found, Walk},
     work::Work,
@@ -362,7 +362,7 @@ impl Walk for Run<'_> {
         let Memory { subset, state, .. } = &*self.memory;
         let step = self.step.as_ref()?;
         let problem = FrameProblem { bodies: &subset.bodies, state, step, axis: self.axis };
-        Some((problem, self.reads.next && !rotates(step)))
+        Some((problem, self.reads.next))
     }
 
     fn note(&mut self, found: Found<'_>) {

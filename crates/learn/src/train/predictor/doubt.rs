@@ -46,12 +46,42 @@ struct Case {
     weight: f64,
 }
 
-/// Fits the predicted error of these weights to rollouts of `sets`.
-pub(super) fn fit_doubt(weights: &PredictorWeights, sets: &[Dataset]) -> Doubt {
+/// Fits the predicted error of these weights to rollouts of `sets`, and scales their hidden rows to
+/// a mean square of one.
+pub(super) fn fit_doubt(weights: &mut PredictorWeights, sets: &[Dataset]) {
     let network = Network::new(weights.clone());
     let cases: Vec<Case> = sets.iter().flat_map(|set| cases(&network, set)).collect();
     let half = weights.card.config.half();
-    let [position, heading] = [0, 1].map(|k| fit(&cases, k, half));
+    weights.card.doubt = Some(fitted(&cases, half));
+    let rows = cases.iter().flat_map(|case| case.rows.chunks_exact(half));
+    let squares: Vec<f64> =
+        rows.map(|row| row.iter().map(|x| f64::from(*x).powi(2)).sum()).collect();
+    let mean = squares.iter().sum::<f64>() / squares.len().max(1) as f64;
+    if mean > 0.0 {
+        scale_rows(weights, mean.sqrt().recip() as f32);
+    }
+}
+
+/// Multiplies the hidden rows before the last layer by `factor`, which changes no prediction: the
+/// rectifier is homogeneous, and everything that reads the rows is divided by it.
+///
+/// Table fits have priors for rows of unit size.
+fn scale_rows(weights: &mut PredictorWeights, factor: f32) {
+    let mut by = |name: &str, factor: f32| {
+        if let Some(values) = weights.parameters.values.get_mut(name) {
+            values.iter_mut().for_each(|value| *value *= factor);
+        }
+    };
+    ["motion.hidden", "motion.hidden_bias"].iter().for_each(|name| by(name, factor));
+    ["motion.even", "motion.odd"].iter().for_each(|name| by(name, factor.recip()));
+    if let Some(doubt) = &mut weights.card.doubt {
+        let values = doubt.weights.iter_mut().flatten();
+        values.for_each(|value| *value /= factor);
+    }
+}
+
+fn fitted(cases: &[Case], half: usize) -> Doubt {
+    let [position, heading] = [0, 1].map(|k| fit(cases, k, half));
     Doubt {
         bias: [position.bias as f32, heading.bias as f32],
         floor: [position.floor() as f32, heading.floor() as f32],

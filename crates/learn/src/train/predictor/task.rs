@@ -60,7 +60,7 @@ fn finish(
     if done && weights.card.doubt.is_none() {
         let (mut weights, share) = shared(&weights, held_out, progress);
         weights.card.share = share;
-        weights.card.doubt = Some(fit_doubt(&weights, data));
+        fit_doubt(&mut weights, data);
         write_atomic(path, &weights.to_bytes()?)?;
         progress.line(&format!("{}: the correction is scaled by {share}", path.display()));
     }
