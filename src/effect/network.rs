@@ -5,9 +5,9 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::{
-    graph::Corrections,
+    graph::{Batch, Corrections},
     network::{Buffers, Forward, Head, PredictorWeights},
-    outcome::{Record, Spread, Trajectory, Warning},
+    outcome::{Record, Spread, Trajectory, Warning, in_turn},
     rollout::{PairMeans, RollSettings, Roller, reachable},
     scene::{CORRECTED, ModelKind, ModelSpec, OTHER_OBJECTS, Scene, Stride, TableFit},
     task::Job,
@@ -203,14 +203,14 @@ impl EffectModel for Network {
             .map_init(
                 || (Roller::new(self.spec.clone(), self.settings), Buffers::default()),
                 |(roller, buffers), chunk| {
-                    roller.roll(
-                        scene,
-                        chunk,
-                        record,
-                        Some(&mut |batch, corrections| {
+                    // Later pushes start from corrected poses.
+                    let stages: Vec<Vec<Job>> = chunk.iter().map(Job::stages).collect();
+                    in_turn(&stages, record, |jobs| {
+                        let mut correct = |batch: &Batch, corrections: &mut Corrections| {
                             forward.run(batch, buffers, corrections);
-                        }),
-                    )
+                        };
+                        roller.roll(scene, jobs, record, Some(&mut correct))
+                    })
                 },
             )
             .flatten_iter()

@@ -32,6 +32,8 @@ pub struct Forward {
     motion_hidden_bias: Vec<f32>,
     motion_even: Vec<f32>,
     motion_odd: Vec<f32>,
+    /// Factor on the rows that heads and the estimate of errors read.
+    row_scale: f32,
     doubt: Option<Doubt>,
     head: Option<Head>,
 }
@@ -70,9 +72,10 @@ pub struct Buffers {
 }
 
 impl Buffers {
-    /// Returns the rows [2, N, h] that the last layer read in the last [`Forward::read`].
-    pub fn hidden(&self) -> &[f32] {
-        &self.next
+    /// Returns the propagated states of the nodes in the last [`Forward::read`], [2, N, h], scaled
+    /// to a mean square of one over training data.
+    pub fn rows(&self) -> &[f32] {
+        &self.state
     }
 }
 
@@ -81,7 +84,7 @@ impl Forward {
     pub fn new(weights: &PredictorWeights) -> Self {
         let card = &weights.card;
         let whole = Self::of(&card.config, &card.normaliser, &weights.parameters);
-        Self { doubt: card.doubt.clone(), ..whole }
+        Self { doubt: card.doubt.clone(), row_scale: card.row_scale, ..whole }
     }
 
     /// Converts parameters in the layout of [`super::layout_of`].
@@ -122,6 +125,7 @@ impl Forward {
             motion_hidden_bias: get("motion.hidden_bias"),
             motion_even: get("motion.even"),
             motion_odd: get("motion.odd"),
+            row_scale: 1.0,
             doubt: None,
             head: None,
         }
@@ -194,12 +198,12 @@ impl Forward {
             ..Correction::default()
         }));
         if let Some(head) = &self.head {
-            head.add(&w.next, nodes);
+            head.add(w.rows(), nodes);
         }
         if let Some(doubt) = &self.doubt {
             *apart = doubt.apart.map(f64::from);
             // The even half of the rows, [N, h].
-            let rows = w.hidden().chunks_exact(self.half);
+            let rows = w.rows().chunks_exact(self.half);
             for (correction, row) in nodes.iter_mut().zip(rows) {
                 correction.doubt = Some(doubt.of_frame(row));
             }
@@ -223,7 +227,7 @@ impl Forward {
         w.even.clear();
         w.odd.clear();
         if n == 0 {
-            w.next.clear();
+            w.state.clear();
             return (&w.even, &w.odd);
         }
         self.relation.run(
@@ -271,6 +275,7 @@ impl Forward {
         let (even, odd) = w.next.split_at(n * h);
         dense(even, &self.motion_even, n, h, self.motion_even.len() / h, &mut w.even, false);
         dense(odd, &self.motion_odd, n, h, self.motion_odd.len() / h, &mut w.odd, false);
+        w.state.iter_mut().for_each(|value| *value *= self.row_scale);
         (&w.even, &w.odd)
     }
 }

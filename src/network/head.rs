@@ -1,4 +1,4 @@
-//! An additive change of the last layer, which recordings of one table can fit.
+//! An additive layer on propagated states, which recordings of one table can fit.
 
 use crate::graph::Correction;
 
@@ -9,8 +9,10 @@ const PARITIES: usize = 2;
 /// motion, and the rotation.
 pub const HEAD_OUTPUTS: usize = 3;
 
-/// Numbers added to the last layer, which maps the hidden row of a node to the correction of its
-/// motion.
+/// Numbers that map the propagated state of a node to a change of its correction.
+///
+/// The hidden rows of the last layer are zero in steady pushes, so that a head on them could not
+/// change these.
 ///
 /// A trained network mirrors exactly: displacements along the motion are read from the even half of
 /// the row, the others from the odd half. A real table does not mirror, because an object may rest

@@ -13,6 +13,9 @@ use super::{
 /// Maximum held-out error that a card may state, metres: longer than any table.
 const LARGEST_ERROR: f64 = 100.0;
 
+/// Factors on propagated states that a card may state.
+const ROW_SCALES: std::ops::RangeInclusive<f32> = 1e-3..=1e3;
+
 /// The weights of the physics predictor.
 pub type PredictorWeights = Weights<PredictorCard>;
 
@@ -61,6 +64,9 @@ pub struct PredictorCard {
     /// Factor on the trained correction: 1 until the best factor over all ground truths was
     /// measured.
     pub share: f32,
+    /// Factor that scales the propagated states to a mean square of one over training data, for
+    /// heads and the estimate of errors.
+    pub row_scale: f32,
     /// Estimate of the network's own error, if it was learned.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub doubt: Option<Doubt>,
@@ -68,7 +74,7 @@ pub struct PredictorCard {
 
 impl Card for PredictorCard {
     const KEY: &'static str = "pushplan";
-    const FORMAT: u32 = 6;
+    const FORMAT: u32 = 7;
 
     fn check(&self) -> Result<(), WeightsError> {
         check_config(self.config)?;
@@ -76,6 +82,10 @@ impl Card for PredictorCard {
         if let Some((name, value)) = self.ranges.unsound() {
             let (name, expected) = (format!("ranges.{name}"), "a number up to the upper limit");
             return Err(WeightsError::Value { name, value, expected });
+        }
+        if !ROW_SCALES.contains(&self.row_scale) {
+            let (name, value) = ("row_scale".to_owned(), f64::from(self.row_scale));
+            return Err(WeightsError::Value { name, value, expected: "0.001 to 1000" });
         }
         if let Some(doubt) = &self.doubt {
             doubt.check(self.config.half())?;

@@ -152,11 +152,17 @@ impl Trajectory {
             frame.stroke += strokes;
             frame
         }));
-        self.contacts.extend(next.contacts.into_iter().map(|mut contact| {
+        for mut contact in next.contacts {
             contact.frame += before;
-            contact
-        }));
-        for warning in next.warnings {
+            let same = |known: &Contact| (known.object, known.with) == (contact.object, contact.with);
+            if !self.contacts.iter().any(same) {
+                self.contacts.push(contact);
+            }
+        }
+        for mut warning in next.warnings {
+            if let Warning::SetDownOn { stroke, .. } = &mut warning {
+                *stroke += strokes;
+            }
             if !self.warnings.contains(&warning) {
                 self.warnings.push(warning);
             }

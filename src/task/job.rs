@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Motion, ToolMotion};
+use super::{Motion, Stroke, ToolMotion};
 use crate::scene::{Physics, Scene, Situation, State};
 
 /// A rollout to compute.
@@ -36,6 +36,19 @@ impl Job {
     /// [`in_turn`](crate::outcome::in_turn).
     pub fn sequence(situation: &Situation, motions: &[ToolMotion]) -> Vec<Self> {
         motions.iter().map(|motion| Self::new(situation, motion.clone())).collect()
+    }
+
+    /// Returns a job for each part of the motion after which everything settles and the tool may be
+    /// lifted. All start where this job starts, see [`in_turn`](crate::outcome::in_turn).
+    pub fn stages(&self) -> Vec<Self> {
+        let Motion::Slide(motion) = &self.motion else { return vec![self.clone()] };
+        let parts = motion.strokes.split_inclusive(|stroke| stroke.settle);
+        let stage = |strokes: &[Stroke]| {
+            let motion = ToolMotion { strokes: strokes.to_vec(), ..motion.clone() };
+            Self { motion: motion.into(), ..self.clone() }
+        };
+        let stages: Vec<Self> = parts.map(stage).collect();
+        if stages.is_empty() { vec![self.clone()] } else { stages }
     }
 
     /// Returns `true` if it leaves the plane or starts out of it, so that it needs a 3-D model.

@@ -41,6 +41,7 @@ pub fn weights(width: usize) -> PredictorWeights {
             steps: 0,
             errors: None,
             share: 1.0,
+            row_scale: 1.0,
             doubt: None,
         },
         parameters,

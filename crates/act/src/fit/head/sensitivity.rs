@@ -42,7 +42,7 @@ impl Sensitivity {
         let (readings, batch) = roller.read(scene, jobs, Record::Outcome);
         let mut buffers = Buffers::default();
         network.forward().run(batch, &mut buffers, &mut Corrections::default());
-        let (even, odd) = buffers.hidden().split_at(buffers.hidden().len() / 2);
+        let (even, odd) = buffers.rows().split_at(buffers.rows().len() / 2);
         for read in readings.iter().flat_map(|reading| &reading.reads) {
             let from = read.node as usize * half;
             let hidden = even[from..from + half].iter().chain(&odd[from..from + half]);

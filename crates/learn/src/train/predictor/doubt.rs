@@ -38,7 +38,7 @@ struct Case {
     errors: [Option<f64>; 2],
     /// Lengths of the motion in each frame, metres and radians, `[T]` each.
     lengths: [Vec<f64>; 2],
-    /// Even half of the hidden row of each frame, [T, h].
+    /// Even half of the propagated state in each frame, [T, h].
     rows: Vec<f32>,
     /// Distances of the readouts from their mean, metres and radians.
     apart: [f64; 2],
@@ -46,38 +46,21 @@ struct Case {
     weight: f64,
 }
 
-/// Fits the predicted error of these weights to rollouts of `sets`, and scales their hidden rows to
-/// a mean square of one.
+/// Scales the rows of these weights to a mean square of one over rollouts of `sets`, and fits the
+/// predicted error to them.
 pub(super) fn fit_doubt(weights: &mut PredictorWeights, sets: &[Dataset]) {
     let network = Network::new(weights.clone());
-    let cases: Vec<Case> = sets.iter().flat_map(|set| cases(&network, set)).collect();
-    let half = weights.card.config.half();
-    weights.card.doubt = Some(fitted(&cases, half));
-    let rows = cases.iter().flat_map(|case| case.rows.chunks_exact(half));
-    let squares: Vec<f64> =
-        rows.map(|row| row.iter().map(|x| f64::from(*x).powi(2)).sum()).collect();
-    let mean = squares.iter().sum::<f64>() / squares.len().max(1) as f64;
+    let mut cases: Vec<Case> = sets.iter().flat_map(|set| cases(&network, set)).collect();
+    let values = cases.iter().flat_map(|case| &case.rows);
+    let squares: f64 = values.clone().map(|value| f64::from(*value).powi(2)).sum();
+    let mean = squares / values.count().max(1) as f64;
     if mean > 0.0 {
-        scale_rows(weights, mean.sqrt().recip() as f32);
+        let factor = mean.sqrt().recip() as f32;
+        weights.card.row_scale *= factor;
+        let rows = cases.iter_mut().flat_map(|case| &mut case.rows);
+        rows.for_each(|value| *value *= factor);
     }
-}
-
-/// Multiplies the hidden rows before the last layer by `factor`, which changes no prediction: the
-/// rectifier is homogeneous, and everything that reads the rows is divided by it.
-///
-/// Table fits have priors for rows of unit size.
-fn scale_rows(weights: &mut PredictorWeights, factor: f32) {
-    let mut by = |name: &str, factor: f32| {
-        if let Some(values) = weights.parameters.values.get_mut(name) {
-            values.iter_mut().for_each(|value| *value *= factor);
-        }
-    };
-    ["motion.hidden", "motion.hidden_bias"].iter().for_each(|name| by(name, factor));
-    ["motion.even", "motion.odd"].iter().for_each(|name| by(name, factor.recip()));
-    if let Some(doubt) = &mut weights.card.doubt {
-        let values = doubt.weights.iter_mut().flatten();
-        values.for_each(|value| *value /= factor);
-    }
+    weights.card.doubt = Some(fitted(&cases, weights.card.config.half()));
 }
 
 fn fitted(cases: &[Case], half: usize) -> Doubt {
@@ -130,7 +113,7 @@ fn rolled(forward: &Forward, episode: &Episode) -> Vec<Case> {
         let mut rows = Vec::with_capacity(own.len() * half);
         for read in &own {
             let node = read.node as usize;
-            rows.extend_from_slice(&buffers.hidden()[node * half..(node + 1) * half]);
+            rows.extend_from_slice(&buffers.rows()[node * half..(node + 1) * half]);
             for (sum, readout) in sums.iter_mut().zip(corrections.nodes[node].readouts) {
                 let change = read.change(readout);
                 (0..3).for_each(|k| sum[k] += change[k]);

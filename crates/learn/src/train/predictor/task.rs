@@ -156,6 +156,7 @@ impl Trainable for Task<'_> {
                 p95: single.p95,
             }),
             share: 1.0,
+            row_scale: 1.0,
             doubt: None,
         }
     }
