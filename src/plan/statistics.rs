@@ -29,6 +29,20 @@ impl SearchStatistics {
         *self.infeasible.entry(reason).or_default() += 1;
     }
 
+    /// Adds the cost of another search, whose improvements are not kept if there are own ones.
+    pub fn add(&mut self, other: &Self) {
+        self.considered += other.considered;
+        for (reason, count) in &other.infeasible {
+            *self.infeasible.entry(*reason).or_default() += count;
+        }
+        self.repeated += other.repeated;
+        self.beyond_budget += other.beyond_budget;
+        self.rollouts += other.rollouts;
+        if self.best.is_empty() {
+            self.best.clone_from(&other.best);
+        }
+    }
+
     pub(super) fn improve(&mut self, rollouts: usize, score: f64) {
         if self.best.last().is_none_or(|&(_, best)| score < best) && score.is_finite() {
             self.best.push((rollouts, score));

@@ -5,6 +5,9 @@
 //! within a step, in which a body in 3-D has no table yet and falls by 0.17 mm. Bodies are
 //! therefore woken here, before the step in which contact is possible. They never sleep again,
 //! because a body that is pushed slowly, or reverses, is slow without being at rest.
+//!
+//! The contacts of a sleeping body with the table are still listed in every step. A body far from
+//! all awake ones is therefore not in the engine's world at all, unless a joint holds it.
 
 use super::groups::Group;
 use crate::scene::Velocity;
@@ -12,6 +15,10 @@ use crate::scene::Velocity;
 /// Distance to an awake body below which a body wakes, metres; rapier detects contacts up to 2 mm
 /// away.
 const NEAR: f64 = 4e-3;
+
+/// Distance to an awake body below which a body is in the engine's world, metres: more than any
+/// body moves in a step.
+const FAR: f64 = 0.1;
 
 /// A bounding box of a body on the table, in the engine's coordinates, metres.
 #[derive(Clone, Copy)]
@@ -60,6 +67,9 @@ pub(super) trait Sleepable {
 
     /// Wakes a body permanently.
     fn wake(&mut self, body: Self::Handle);
+
+    /// Takes a body out of the world, or puts it back at rest.
+    fn set_present(&mut self, body: Self::Handle, present: bool);
 }
 
 /// Speed below which a body rests, m/s and rad/s.
@@ -72,6 +82,8 @@ const AT_ONCE: f64 = 1e-9;
 /// The sleeping and the awake bodies of a world.
 pub(super) struct Asleep<H> {
     asleep: Vec<Sleeper<H>>,
+    /// Bodies out of the world.
+    away: Vec<Sleeper<H>>,
     awake: Vec<H>,
 }
 
@@ -84,18 +96,25 @@ struct Sleeper<H> {
 
 impl<H: Copy> Asleep<H> {
     /// Lets the resting groups of `groups` sleep; `bodies` are their handles, and the tool is
-    /// awake.
+    /// awake. Only groups that `stands` selects may leave the world.
     pub fn new<W: Sleepable<Handle = H>>(
         world: &mut W,
         (groups, bodies): (&[Group], impl Iterator<Item = H>),
         tool: H,
+        stands: impl Fn(&Group) -> bool,
     ) -> Self {
-        let mut this = Self { asleep: Vec::new(), awake: vec![tool] };
+        let mut this = Self { asleep: Vec::new(), away: Vec::new(), awake: vec![tool] };
         for (group, body) in groups.iter().zip(bodies) {
             if group.velocity == Velocity::default() {
                 let around = world.extent(body);
-                this.asleep.push(Sleeper { body, around, sleeps: false });
                 world.let_sleep(body);
+                let sleeper = Sleeper { body, around, sleeps: false };
+                if stands(group) {
+                    world.set_present(body, false);
+                    this.away.push(sleeper);
+                } else {
+                    this.asleep.push(sleeper);
+                }
             } else {
                 this.awake.push(body);
             }
@@ -105,7 +124,7 @@ impl<H: Copy> Asleep<H> {
 
     /// Creates an instance in which no body ever sleeps.
     pub fn none() -> Self {
-        Self { asleep: Vec::new(), awake: Vec::new() }
+        Self { asleep: Vec::new(), away: Vec::new(), awake: Vec::new() }
     }
 
     /// Keeps a body awake, because a spring may move it.
@@ -124,9 +143,14 @@ impl<H: Copy> Asleep<H> {
     pub fn wake_near<W: Sleepable<Handle = H>>(&mut self, world: &mut W) {
         let mut k = 0;
         // A woken body also wakes its neighbours.
-        while k < self.awake.len() && !self.asleep.is_empty() {
+        while k < self.awake.len() && !(self.asleep.is_empty() && self.away.is_empty()) {
             let body = self.awake[k];
-            let (extent, margin) = (world.extent(body), NEAR + world.stride(body));
+            let (extent, stride) = (world.extent(body), world.stride(body));
+            for near in self.away.extract_if(.., |one| extent.is_near(&one.around, FAR + stride)) {
+                world.set_present(near.body, true);
+                self.asleep.push(near);
+            }
+            let margin = NEAR + stride;
             self.asleep.retain_mut(|sleeper| {
                 let sleeps = world.sleeps(sleeper.body);
                 // Bodies woken by the engine were hit by a body faster than the look-ahead.
@@ -176,6 +200,10 @@ impl Sleepable for rapier2d_f64::prelude::PhysicsWorld {
         body.activation_mut().angular_threshold = -1.0;
         body.wake_up(true);
     }
+
+    fn set_present(&mut self, body: Self::Handle, present: bool) {
+        self.bodies[body].set_enabled(present);
+    }
 }
 
 impl Sleepable for rapier3d_f64::prelude::PhysicsWorld {
@@ -209,6 +237,10 @@ impl Sleepable for rapier3d_f64::prelude::PhysicsWorld {
         body.activation_mut().normalized_linear_threshold = -1.0;
         body.activation_mut().angular_threshold = -1.0;
         body.wake_up(true);
+    }
+
+    fn set_present(&mut self, body: Self::Handle, present: bool) {
+        self.bodies[body].set_enabled(present);
     }
 }
 

@@ -7,7 +7,7 @@
 //! costs less. Every object keeps its own mass and its own friction with the table.
 
 use crate::geometry::{Pose, Vector, cross};
-use crate::scene::{Physics, Scene, State, Velocity};
+use crate::scene::{Joint, JointKind, Physics, Scene, State, Velocity};
 
 /// A rigid body at its start.
 pub(super) struct Group {
@@ -49,6 +49,22 @@ impl Group {
         let velocity = Velocity { linear, angular: momentum / inertia };
         Group { objects, pose: Pose { position: centre, heading: 0.0 }, velocity }
     }
+}
+
+/// Returns `true` if a group rests on the table by itself: no joint holds it, and it is nowhere
+/// near the edge.
+pub(super) fn stands(scene: &Scene, state: &State, physics: &Physics, group: &Group) -> bool {
+    let joined = |object: usize| {
+        let moves = |joint: &&Joint| joint.kind != JointKind::Fixed;
+        let mut joints = physics.joints.iter().filter(moves);
+        joints.any(|joint| joint.between.contains(&object)) || scene.mount(object).is_some()
+    };
+    let inside = |object: usize| {
+        let radius = scene.objects[object].shape.footprint().bounding_radius();
+        let position = state.poses[object].position;
+        scene.table_top.is_none_or(|top| top.holds_within(position, -radius))
+    };
+    group.objects.iter().all(|&object| !joined(object) && inside(object))
 }
 
 /// An object on its body.

@@ -21,7 +21,7 @@ use crate::{
 
 use super::asleep::Asleep;
 use super::footprints::{collider, vector, weighing};
-use super::groups::{Group, Member};
+use super::groups::{Group, Member, stands};
 use super::parameters::{
     ALLOWED_ERROR, ARTICULATED_ITERATIONS, PLANAR_CONTACT, STIFF_CONTACT, centre, is_articulated,
     needs_stiff_contacts,
@@ -76,7 +76,8 @@ impl World for PlanarWorld {
             return;
         }
         for tracked in &mut self.bodies {
-            if self.world.bodies[tracked.handle].is_sleeping() {
+            let body = &self.world.bodies[tracked.handle];
+            if body.is_sleeping() || !body.is_enabled() {
                 continue;
             }
             tracked.pressed.hurry(factor);
@@ -118,7 +119,9 @@ impl World for PlanarWorld {
         }
         this.add_joints(scene, physics);
         let bodies = this.bodies.iter().map(|tracked| tracked.handle);
-        this.asleep = Asleep::new(&mut this.world, (&groups, bodies), this.tool);
+        this.asleep = Asleep::new(&mut this.world, (&groups, bodies), this.tool, |group| {
+            stands(scene, state, physics, group)
+        });
         for mount in scene.mounts.iter().filter(|mount| mount.spring > 0.0) {
             let body = this.bodies[this.objects[mount.object].0.body].handle;
             this.asleep.keep_awake(&mut this.world, body);
@@ -141,7 +144,8 @@ impl World for PlanarWorld {
         self.asleep.wake_near(&mut self.world);
         let dt = self.world.integration_parameters.dt;
         for tracked in &mut self.bodies {
-            if self.world.bodies[tracked.handle].is_sleeping() {
+            let body = &self.world.bodies[tracked.handle];
+            if body.is_sleeping() || !body.is_enabled() {
                 continue;
             }
             let body = &mut self.world.bodies[tracked.handle];

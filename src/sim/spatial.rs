@@ -16,7 +16,7 @@ use crate::scene::{Body, Feet, Physics, Scene, State, Velocity};
 use crate::task::{FrameStep, ToolMotion};
 
 use super::asleep::Asleep;
-use super::groups::{Group, Member};
+use super::groups::{Group, Member, stands};
 use super::parameters::{ALLOWED_ERROR, STIFF_CONTACT, is_articulated, needs_stiff_contacts};
 use super::seams::Seams;
 use super::solids::{CLEAR, FOOT, floor, foot, raised, solid, table, undersides, weighing};
@@ -69,6 +69,8 @@ struct Tracked {
     first_rotation: Rotation,
     last_angle: f64,
     turned: f64,
+    /// Whether it has fallen off the table, so that it is no longer in rapier's world.
+    fallen: bool,
 }
 
 impl<const TIPS: bool> World for SpatialWorld<TIPS> {
@@ -122,7 +124,10 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
         add_joints(&mut this.world, scene, (&physics.joints, &frame), &joints);
         if TIPS {
             let bodies = this.bodies.iter().map(|tracked| tracked.handle);
-            this.asleep = Asleep::new(&mut this.world, (&groups, bodies), this.tool);
+            this.asleep = 
+                Asleep::new(&mut this.world, (&groups, bodies), this.tool, |group| {
+                    stands(scene, state, physics, group)
+                });
             for mount in scene.mounts.iter().filter(|mount| mount.spring > 0.0) {
                 this.asleep.keep_awake(&mut this.world, joints[mount.object].body);
             }
@@ -211,7 +216,7 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
 
     fn has_fallen(&self, object: usize) -> Option<bool> {
         let tracked = &self.bodies[self.objects[object].0.body];
-        self.ends.then(|| !self.world.bodies[tracked.handle].is_enabled())
+        self.ends.then_some(tracked.fallen)
     }
 
     fn overlaps(&self, found: &mut dyn FnMut(Overlap)) {
@@ -252,9 +257,10 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
 
     /// Disables bodies that have fallen off the table; they keep their poses.
     fn leave_fallen(&mut self) {
-        for tracked in &self.bodies {
+        for tracked in &mut self.bodies {
             let body = &mut self.world.bodies[tracked.handle];
             if body.is_enabled() && body.translation().z < tracked.first_position.z - FALLEN {
+                tracked.fallen = true;
                 body.set_linvel(RapierVector::ZERO, false);
                 body.set_angvel(RapierVector::ZERO, false);
                 body.set_enabled(false);
@@ -306,6 +312,7 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
             first_rotation: *body.rotation(),
             last_angle: yaw(body.rotation()),
             turned: 0.0,
+            fallen: false,
         });
     }
 

@@ -81,7 +81,7 @@ impl<'a> Verification<'a> {
     /// often than estimated, another plan may become the best. While fragile plans are not
     /// accepted, a plan that fails with one support model is dropped early.
     pub fn settle(&self, attempts: &mut Attempts, least: Class) {
-        let wanted = self.query.planner.settings().replays > 0;
+        let wanted = self.query.settings.replays > 0;
         while let Some((grade, k)) = attempts.best
             && wanted
             && grade.class >= least

@@ -10,6 +10,7 @@ use super::progress::Reporter;
 use super::query::Query;
 use super::refiner::Refiner;
 use super::solution::LeverStatistics;
+use super::strategy::AllBudgets;
 use super::{PlanStatus, Timing};
 
 /// Current state of the solution of one task. A strategy reads it to decide its next step.
@@ -24,6 +25,8 @@ pub(super) struct Blackboard<'a> {
     pub attempts: Attempts,
     pub reporter: Reporter<'a>,
     pub timing: Timing,
+    /// Search with all budgets, after a first attempt with fewer.
+    pub all: AllBudgets<'a>,
     /// Costs of lever-ups, if the task leaves the plane.
     pub levers: Option<LeverStatistics>,
 }
@@ -40,13 +43,15 @@ pub(super) struct Candidates {
 impl<'a> Blackboard<'a> {
     /// Creates the state before the search for pushes.
     pub fn for_pushes(query: Query<'a>, search: Search<'a>) -> Self {
-        let perturbed = query.planner.settings().replays;
-        Self { search: Some(search), ..Self::new(query, perturbed) }
+        let perturbed = query.settings.replays;
+        let first = (query.settings != *query.planner.settings()).then_some(query.settings);
+        let all = AllBudgets::after(first);
+        Self { search: Some(search), all, ..Self::new(query, perturbed) }
     }
 
     /// Creates the state before the search for lever-ups.
     pub fn for_levers(query: Query<'a>) -> Self {
-        let perturbed = query.planner.settings().levers.replays;
+        let perturbed = query.settings.levers.replays;
         Self { levers: Some(LeverStatistics::default()), ..Self::new(query, perturbed) }
     }
 
@@ -60,6 +65,7 @@ impl<'a> Blackboard<'a> {
             attempts: Attempts::default(),
             reporter: Reporter::new(query.progress),
             timing: Timing::default(),
+            all: AllBudgets::after(None),
             levers: None,
         }
     }

@@ -106,7 +106,9 @@ impl Planner {
             };
             check_levers(task, situation, &blades)?;
             let until = Until::new(progress, self.time_limit);
-            let query = Query { planner: self, task, situation, tools: &blades, progress: &until };
+            let settings = *self.settings();
+            let tools = &blades;
+            let query = Query { planner: self, task, situation, tools, progress: &until, settings };
             return solve_levers(query, library);
         }
         let tools = task.tools(library)?;
@@ -114,7 +116,8 @@ impl Planner {
         let motion = |tool: &Arc<Tool>| typical(task, &situation.start, tool);
         self.refuse(task, situation, tools.iter().map(motion))?;
         let until = Until::new(progress, self.time_limit);
-        solve_pushes(Query { planner: self, task, situation, tools: &tools, progress: &until })
+        let (tools, settings) = (&tools, self.settings().first_attempt());
+        solve_pushes(Query { planner: self, task, situation, tools, progress: &until, settings })
     }
 
     /// Returns the cause if a pushing task has no plan, as [`Planner::solve`] reports it. Returns
@@ -140,7 +143,8 @@ impl Planner {
         }
         let tools = task.tools(library)?;
         check(task, &situation, &tools[..])?;
-        let query = Query { planner: self, task, situation: &situation, tools: &tools, progress };
+        let (tools, situation, settings) = (&tools, &situation, self.settings().first_attempt());
+        let query = Query { planner: self, task, situation, tools, progress, settings };
         let unobstructed = unobstructed(&query);
         let mut board = Blackboard::for_pushes(query, query.search());
         board.verification.promising = Some(task.reached(&situation.start));
@@ -177,7 +181,8 @@ impl Planner {
         let tools = task.tools(library)?;
         check(task, situation, &tools[..])?;
         let until = Until::new(progress, self.time_limit);
-        let query = Query { planner: self, task, situation, tools: &tools, progress: &until };
+        let (tools, settings) = (&tools, *self.settings());
+        let query = Query { planner: self, task, situation, tools, progress: &until, settings };
         let mut board = Blackboard::for_pushes(query, query.search());
         Ok(approach(&mut board, least))
     }

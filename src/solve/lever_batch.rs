@@ -38,7 +38,7 @@ pub(super) fn verify_plans(board: &mut Blackboard, mut batch: LeverBatch) {
 pub(super) fn verify_in_groups(board: &mut Blackboard, task: &Task, plans: &mut [LeverPlan]) {
     let began = Instant::now();
     board.reporter.stage("verify lever-ups");
-    let settings = board.query.planner.settings().levers;
+    let settings = board.query.settings.levers;
     let kinds: Vec<Kind> = plans.iter().map(|plan| plan.kind).collect();
     let mut promising: Vec<usize> = (0..plans.len()).filter(|&k| plans[k].promising).collect();
     let mut verified: Vec<usize> = Vec::new();

@@ -9,6 +9,7 @@ use crate::task::{Goal, Job, Task};
 
 use super::aims::first_aims;
 use super::planner::Planner;
+use super::settings::Settings;
 use super::typical::{error_p95, typical};
 
 /// Maximum room of later pushes for the model's error, metres: a longer approach costs reach and
@@ -29,6 +30,8 @@ pub(super) struct Query<'a> {
     /// Allowed tools: for pushing, or with blades in a task of levering.
     pub tools: &'a [Arc<Tool>],
     pub progress: &'a dyn Progress,
+    /// Budgets: the planner's, or those of a first attempt.
+    pub settings: Settings,
 }
 
 impl<'a> Query<'a> {
@@ -44,7 +47,7 @@ impl<'a> Query<'a> {
 
     /// Returns the number of plans that are verified together.
     pub fn at_once(&self) -> usize {
-        self.planner.settings().at_once(self.situation.scene.objects.len())
+        self.settings.at_once(self.situation.scene.objects.len())
     }
 
     /// Returns the maximum number of rollouts of one refinement.
@@ -54,7 +57,7 @@ impl<'a> Query<'a> {
 
     /// Returns the settings with which candidates of `pushes` pushes are refined.
     pub fn refine_settings(&self, pushes: usize) -> RefineSettings {
-        let settings = self.planner.settings();
+        let settings = &self.settings;
         RefineSettings {
             rounds: settings.refine_rounds,
             extra: settings.refine_extra,
@@ -73,7 +76,7 @@ impl<'a> Query<'a> {
             error_p95(self.planner.model(), self.situation, &job).unwrap_or(f64::INFINITY)
         });
         let error = errors.fold(0.0, f64::max).min(MOST_ROOM_FOR_MODEL);
-        let settings = self.planner.settings().search(error);
+        let settings = self.settings.search(error);
         Search::new(self.workspace(), self.situation, settings)
     }
 }

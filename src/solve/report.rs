@@ -177,11 +177,12 @@ fn is_nearer(query: &Query, attempt: &Attempt) -> bool {
 fn push_statistics(board: &Blackboard, plans: usize) -> Statistics {
     let search = board.search.as_ref();
     Statistics {
-        search: search.map(|search| search.statistics().clone()).unwrap_or_default(),
+        search: board.all.statistics(search),
         refinement: board.refiner.statistics.clone(),
         rollouts: plans + board.refiner.rollouts.used(),
         verified: board.verification.verified,
         depth: search.map_or(0, Search::depth),
+        escalated: board.all.used,
         timing: board.timing,
         levers: None,
     }

@@ -183,7 +183,7 @@ fn aim_again(board: &mut Blackboard, failed: &[usize], count: usize, pushes: usi
 
 /// Returns the error of a plan as written in tolerances, in the engine where it is larger. The
 /// error is infinite if the outcome is invalid.
-fn replayed_error(task: &Task, attempt: &Attempt) -> f64 {
+pub(super) fn replayed_error(task: &Task, attempt: &Attempt) -> f64 {
     let Some(verdict) = &attempt.verdict else { return f64::INFINITY };
     if !verdict.forbidden.is_empty() {
         return f64::INFINITY;

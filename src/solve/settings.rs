@@ -92,6 +92,23 @@ impl Settings {
         Self { replays, levers: LeverSettings { replays, ..self.levers }, ..self }
     }
 
+    /// Returns the budgets of a first attempt: a draft's, with as many replays. Most tasks need no
+    /// more.
+    #[must_use]
+    pub fn first_attempt(&self) -> Self {
+        let draft = Effort::Draft.settings();
+        Self {
+            offsets: self.offsets.min(draft.offsets),
+            beam: self.beam.min(draft.beam),
+            search_rollouts: self.search_rollouts.min(draft.search_rollouts),
+            refined: self.refined.min(draft.refined),
+            refine_rounds: self.refine_rounds.min(draft.refine_rounds),
+            refine_extra: self.refine_extra.min(draft.refine_extra),
+            verify_batches: self.verify_batches.min(draft.verify_batches),
+            ..*self
+        }
+    }
+
     /// Smallest budgets that still search, refine and verify.
     pub const FIRST_LOOK: Settings = Settings {
         offsets: 3,

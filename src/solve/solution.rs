@@ -150,6 +150,9 @@ pub struct Statistics {
     pub verified: usize,
     /// Number of pushes of the longest plans searched.
     pub depth: usize,
+    /// Whether the budgets of a first attempt did not suffice.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub escalated: bool,
     /// Wall-clock times.
     pub timing: Timing,
     /// Cost of lever-ups, if the task allows them.
@@ -160,6 +163,7 @@ pub struct Statistics {
 impl Statistics {
     /// Adds the cost of earlier work on the same task.
     pub(super) fn add(&mut self, before: &Self) {
+        self.escalated |= before.escalated;
         self.rollouts += before.rollouts;
         self.verified += before.verified;
         let (timing, spent) = (&mut self.timing, &before.timing);

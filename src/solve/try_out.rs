@@ -27,7 +27,7 @@ pub(super) fn try_out(board: &mut Blackboard, candidates: Candidates) {
 
 fn refine_and_verify(board: &mut Blackboard, candidates: &Candidates) {
     let Candidates { found, pushes, .. } = candidates;
-    let (query, settings) = (board.query, *board.query.planner.settings());
+    let (query, settings) = (board.query, board.query.settings);
     let began = Instant::now();
     let at_once = query.at_once();
     let most = settings.verified_at_once.max(1) * settings.verify_batches;

@@ -67,9 +67,10 @@ impl<'a> Case<'a> {
     /// Returns plans of `task` that work as written, with as few pushes as possible.
     pub fn ways(&self, task: &Task, tools: &[Arc<Tool>]) -> Vec<Way> {
         let situation = &stated(task);
-        let query =
-            Query { planner: self.planner, task, situation, tools, progress: self.progress };
-        let (settings, goals) = (query.planner.settings(), query.goals());
+        let settings = *self.planner.settings();
+        let (planner, progress) = (self.planner, self.progress);
+        let query = Query { planner, task, situation, tools, progress, settings };
+        let goals = query.goals();
         let search = Search::new(query.workspace(), situation, settings.search(0.0));
         let mut board = Blackboard::for_pushes(query, search);
         while let Some(search) = board.search.as_mut().filter(|search| search.can_deepen())

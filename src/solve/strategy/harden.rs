@@ -28,7 +28,7 @@ impl<'a> Strategy<'a> for Harden {
         board.reporter.stage_of("search", pushes);
         let began = Instant::now();
         let settings = HardenSettings {
-            kinds: 2 * query.planner.settings().refined,
+            kinds: 2 * query.settings.refined,
             rollouts: query.refine_rollouts(),
             seed: query.refine_settings(pushes).seed ^ HARDENING,
         };

@@ -5,6 +5,7 @@
 
 mod change_tool;
 mod clear;
+mod escalate;
 mod fine_offsets;
 mod harden;
 mod lever;
@@ -12,6 +13,7 @@ mod order;
 mod push;
 mod transport;
 
+pub(super) use escalate::AllBudgets;
 pub(super) use order::{for_levers, for_pushes};
 pub use transport::Approach;
 pub(super) use transport::approach;

@@ -8,6 +8,7 @@ use crate::task::Task;
 
 use super::change_tool::ChangeTool;
 use super::clear::Clear;
+use super::escalate::{Remaining, SameLength};
 use super::fine_offsets::FineOffsets;
 use super::harden::Harden;
 use super::lever::{FollowUp, InTurn, LeverUp, MakeRoom};
@@ -20,16 +21,19 @@ type Strategies<'a> = Vec<Box<dyn Strategy<'a> + 'a>>;
 /// Returns the strategies for pushing tasks. `alone` is the task without the possible obstructions,
 /// if there are any.
 ///
-/// Plans that work nearly always are first searched among the existing results, then with an
-/// obstruction cleared, then after legs of transport. Only then may plans be a push longer. Tool
-/// changes follow, if no plan with one grip is even predicted to reach the goal, and fine lateral
-/// offsets come last, if no plan works.
+/// Plans that work nearly always are first searched among the existing results, then with all
+/// budgets, then with an obstruction cleared, then after legs of transport. Only then may plans be a
+/// push longer. If no plan works, all budgets follow for every number of pushes. Tool changes are
+/// next, if no plan with one grip is even predicted to reach the goal, and fine lateral offsets come
+/// last.
 pub(in crate::solve) fn for_pushes<'a>(alone: Option<&'a (Task, Situation)>) -> Strategies<'a> {
     vec![
         Box::new(Harden),
+        Box::new(SameLength),
         Box::new(Clear::new(alone)),
         Box::new(Transport::default()),
         Box::new(Push),
+        Box::new(Remaining),
         Box::new(ChangeTool::default()),
         Box::new(FineOffsets::default()),
     ]

@@ -71,7 +71,7 @@ impl<'a> Strategy<'a> for FollowUp<'a> {
             Some(levered) => levered,
             None => self.levered(board),
         };
-        let most = board.query.planner.settings().levers.followed;
+        let most = board.query.settings.levers.followed;
         while let Some(attempt) = levered.pop_front().filter(|_| self.followed < most) {
             let prefix = Prefix { plan: attempt.plan, tools: attempt.tools };
             let Some(rests) = prefix.rests(board.query.task) else { continue };

@@ -49,7 +49,7 @@ impl<'a> MakeRoom<'a> {
     /// Pushes the object to the next place from which it can be levered.
     fn push(&mut self, board: &mut Blackboard) -> Result<Option<(Prefix, Task)>, SolveError> {
         let query = board.query;
-        let most = query.planner.settings().levers.followed;
+        let most = query.settings.levers.followed;
         let (task, goal) = (query.task, query.task.goals[0].object);
         while self.pushed < most
             && !query.progress.cancelled()

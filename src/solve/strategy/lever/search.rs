@@ -34,7 +34,7 @@ pub(super) fn lever_ups(board: &mut Blackboard, task: &Task, prefix: &Prefix) ->
     let began = Instant::now();
     board.reporter.stage("search lever-ups");
     let (scored, statistics) = search(&board.query, task);
-    let chosen = choose(scored, board.query.planner.settings().levers.simulated);
+    let chosen = choose(scored, board.query.settings.levers.simulated);
     if let Some(levers) = &mut board.levers {
         levers.search = statistics;
         levers.simulated += chosen.len();
@@ -95,7 +95,7 @@ fn choose(scored: Vec<ScoredLever>, wanted: usize) -> Vec<ScoredLever> {
 
 /// Simulates candidates coarsely, nominal and perturbed, and ranks them by the results.
 fn simulate(query: &Query, task: &Task, chosen: Vec<ScoredLever>) -> Vec<Simulated> {
-    let doubts = query.planner.settings().levers.doubts;
+    let doubts = query.settings.levers.doubts;
     let stated = Situation::stated(&task.scene);
     let mut simulated: Vec<Simulated> = chosen
         .into_par_iter()
