@@ -75,6 +75,9 @@ pub(super) const fn numbers(of: &'static Value, n: usize) -> Value {
 const METRES: &str = "lengths are in metres: 50 mm is 0.05";
 const DEGREES: &str = "angles are in degrees: a quarter turn is 90";
 
+/// Maximum number of objects, of obstacles or of joints in a file.
+pub(super) const MOST_BODIES: usize = 200;
+
 /// Extent of a body, from the thickness of a coin to a room.
 pub(super) const SIZE: Value =
     Value::Number(Range { what: "a size in metres", low: 0.001, high: 10.0, advice: METRES });

@@ -154,7 +154,8 @@ impl Trajectory {
         }));
         for mut contact in next.contacts {
             contact.frame += before;
-            let same = |known: &Contact| (known.object, known.with) == (contact.object, contact.with);
+            let same =
+                |known: &Contact| (known.object, known.with) == (contact.object, contact.with);
             if !self.contacts.iter().any(same) {
                 self.contacts.push(contact);
             }

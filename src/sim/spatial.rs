@@ -124,10 +124,9 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
         add_joints(&mut this.world, scene, (&physics.joints, &frame), &joints);
         if TIPS {
             let bodies = this.bodies.iter().map(|tracked| tracked.handle);
-            this.asleep = 
-                Asleep::new(&mut this.world, (&groups, bodies), this.tool, |group| {
-                    stands(scene, state, physics, group)
-                });
+            this.asleep = Asleep::new(&mut this.world, (&groups, bodies), this.tool, |group| {
+                stands(scene, state, physics, group)
+            });
             for mount in scene.mounts.iter().filter(|mount| mount.spring > 0.0) {
                 this.asleep.keep_awake(&mut this.world, joints[mount.object].body);
             }

@@ -1,16 +1,17 @@
 //! State shared by all strategies while one task is solved.
 
-use crate::plan::{REFINABLE, Search, SearchResult, bare};
+use crate::plan::{REFINABLE, Search, bare};
 use crate::progress::Instant;
 
 use super::adaptive_verify::Verification;
+use super::all_budgets::AllBudgets;
 use super::attempts::{Attempt, Attempts};
+use super::candidates::Candidates;
 use super::grade::Class;
 use super::progress::Reporter;
 use super::query::Query;
 use super::refiner::Refiner;
 use super::solution::LeverStatistics;
-use super::strategy::AllBudgets;
 use super::{PlanStatus, Timing};
 
 /// Current state of the solution of one task. A strategy reads it to decide its next step.
@@ -29,15 +30,6 @@ pub(super) struct Blackboard<'a> {
     pub all: AllBudgets<'a>,
     /// Costs of lever-ups, if the task leaves the plane.
     pub levers: Option<LeverStatistics>,
-}
-
-/// Candidates of one length, best first.
-#[derive(Clone)]
-pub(super) struct Candidates {
-    pub found: Vec<SearchResult>,
-    pub pushes: usize,
-    /// Whether hardening may make these candidates more robust.
-    pub hardenable: bool,
 }
 
 impl<'a> Blackboard<'a> {

@@ -8,9 +8,11 @@
 
 mod adaptive_verify;
 mod aims;
+mod all_budgets;
 mod arm_feasibility;
 mod attempts;
 mod blackboard;
+mod candidates;
 mod check;
 mod choice;
 mod efforts;

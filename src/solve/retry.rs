@@ -10,7 +10,8 @@ use crate::scene::{Engine, Tool};
 use crate::task::{Demand, End, Goal, Task};
 
 use super::attempts::{Attempt, Attempts, Replays};
-use super::blackboard::{Blackboard, Candidates};
+use super::blackboard::Blackboard;
+use super::candidates::Candidates;
 use super::pattern::PushPattern;
 use super::refinement::refined;
 

@@ -2,7 +2,8 @@
 //! until no strategy has one.
 
 use super::SolveError;
-use super::blackboard::{Blackboard, Candidates};
+use super::blackboard::Blackboard;
+use super::candidates::Candidates;
 use super::lever_batch::{LeverBatch, verify_plans};
 use super::try_out::try_out;
 

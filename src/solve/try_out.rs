@@ -4,7 +4,8 @@
 use crate::plan::is_behind;
 use crate::progress::Instant;
 
-use super::blackboard::{Blackboard, Candidates};
+use super::blackboard::Blackboard;
+use super::candidates::Candidates;
 use super::grade::Class;
 use super::refinement::refined;
 use super::retry::retry;

@@ -7,8 +7,9 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use crate::geometry::{Pose, Vector};
+use crate::sim::Simulator;
 use crate::{
-    scene::{Object, Scene, Situation, Tool},
+    scene::{Engine, Object, Rate, Scene, Situation, Tool},
     task::{Goal, Job, Task, ToolMotion},
 };
 
@@ -27,6 +28,13 @@ const EDGE: f64 = 0.004;
 
 /// Uncertainty of the height at which a tool is held, metres.
 const HAIR: f64 = 1e-3;
+
+/// Returns the 3-D engine of perturbed replays. Joints need its default step.
+pub(super) fn perturbed_spatial(situation: &Situation) -> Simulator {
+    let jointed = !(situation.physics.joints.is_empty() && situation.scene.mounts.is_empty());
+    let rate = if jointed { Rate::DEFAULT } else { Rate::PERTURBED };
+    Simulator::new(Engine::Spatial, rate).retreating()
+}
 
 /// Returns the jobs of `motions` in order under one draw of perturbations, uniform within their
 /// ranges. The result is deterministic for a seed and a draw.

@@ -13,14 +13,14 @@ use crate::{
         Evidence, Outcome, Perturbation, Record, Trajectory, Verdict, Warning, never_on,
         step_states,
     },
-    scene::{Engine, JointTrajectory, Rate, Scene, Situation, Tool},
+    scene::{Engine, JointTrajectory, Scene, Situation, Tool},
     task::{Job, Plan, Task},
 };
 
 use super::arm::arm_faults;
 use super::conditions::Conditions;
 use super::force::force_warnings;
-use super::perturbation::{perturbed, wary};
+use super::perturbation::{perturbed, perturbed_spatial, wary};
 use super::rules::{hand_meets, rule_violations, travel_faults, unplayable};
 use super::sequential_test;
 use super::space;
@@ -50,8 +50,6 @@ pub struct Verifier<'a> {
     settings: VerifySettings,
     planar: Simulator,
     spatial: Simulator,
-    /// 3-D engine of the perturbed replays without joints.
-    perturbed_spatial: Simulator,
     progress: &'a dyn Progress,
     /// Whether replays are added until the verdict is clear.
     until_clear: bool,
@@ -66,18 +64,13 @@ pub struct Verifier<'a> {
 impl<'a> Verifier<'a> {
     /// Creates a verifier with the engines at their default time steps.
     pub fn new(settings: VerifySettings) -> Self {
-        let [planar, spatial, perturbed_spatial] = [
-            Simulator::planar(),
-            Simulator::spatial(),
-            Simulator::new(Engine::Spatial, Rate::PERTURBED),
-        ]
-        .map(Simulator::retreating);
+        let [planar, spatial] =
+            [Simulator::planar(), Simulator::spatial()].map(Simulator::retreating);
         let progress = &NoProgress;
         Self {
             settings,
             planar,
             spatial,
-            perturbed_spatial,
             progress,
             until_clear: false,
             giving_up: false,
@@ -210,9 +203,7 @@ impl<'a> Verifier<'a> {
         let refused = never(&planar, task)
             || sequential_test::answer(&planar, task.robustness) == Some(false);
         if !(refused || self.in_plane) {
-            // Joints need the finer steps.
-            let jointed = !(situation.physics.joints.is_empty() && situation.scene.mounts.is_empty());
-            let engine = if jointed { &self.spatial } else { &self.perturbed_spatial };
+            let engine = &perturbed_spatial(situation);
             self.add_perturbed(engine, asked, &mut spatial);
         }
         let evidence = nominal.into_iter().chain(planar).chain(spatial).collect();

@@ -2,7 +2,9 @@
 
 use crate::asset::saved::{SCHEMA_VERSION, version};
 use crate::asset::shapes::{CUBOID, CYLINDER};
-use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, POSITION, Range, Value, numbers};
+use crate::asset::spec::{
+    ANGLE, FRICTION, Key, MASS, MOST_BODIES, POSITION, Range, Value, numbers,
+};
 use crate::asset::task::{
     self, FRICTIONS, JOINTS, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, PUSH_HEIGHT,
     TABLE,
@@ -51,7 +53,7 @@ const SCENE: Value = Value::Map(&[
     PUSH_HEIGHT,
     Key::required(
         "objects",
-        Value::List { of: &OBJECT, items: "objects", min: 1, max: 64 },
+        Value::List { of: &OBJECT, items: "objects", min: 1, max: MOST_BODIES },
         "The movable objects, in the order of the frames.",
     ),
     Key::optional(
@@ -152,7 +154,7 @@ const FRAME: Value = Value::Map(&[
     Key::required("pusher", POSE, "Pose of the pusher, [x, y] or [x, y, yaw_deg]."),
     Key::optional(
         "objects",
-        Value::List { of: &POSE, items: "poses, one per object", min: 1, max: 64 },
+        Value::List { of: &POSE, items: "poses, one per object", min: 1, max: MOST_BODIES },
         "Pose of each object, [x, y] or [x, y, yaw_deg], in the order of the scene; by default not \
          observed, which is allowed between the first and the last frame.",
     ),

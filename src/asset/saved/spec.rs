@@ -1,7 +1,7 @@
 //! Specification of plan and trajectory files.
 
 use crate::asset::node::Node;
-use crate::asset::spec::{Key, Range, Value, numbers};
+use crate::asset::spec::{Key, MOST_BODIES, Range, Value, numbers};
 use crate::asset::task::TASK_KEYS;
 use crate::asset::tool::TOOL_FILE;
 
@@ -128,12 +128,12 @@ const VELOCITY: Value = Value::Map(&[
 pub(super) const STATE: Value = Value::Map(&[
     Key::required(
         "poses",
-        Value::List { of: &POSE, items: "poses", min: 1, max: 64 },
+        Value::List { of: &POSE, items: "poses", min: 1, max: MOST_BODIES },
         "Poses of the objects, in the task's order.",
     ),
     Key::required(
         "velocities",
-        Value::List { of: &VELOCITY, items: "velocities", min: 1, max: 64 },
+        Value::List { of: &VELOCITY, items: "velocities", min: 1, max: MOST_BODIES },
         "Velocities of the objects, in the task's order.",
     ),
     Key::optional(

@@ -1,6 +1,6 @@
 //! Specification of the outcome and verdict of a plan in a file.
 
-use crate::asset::spec::{Key, Value};
+use crate::asset::spec::{Key, MOST_BODIES, Value};
 
 use super::spec::{DRAW, FORCE, INDEX, REAL, SHARE, STATE, UNSIGNED};
 use super::steps::SCORE;
@@ -34,7 +34,7 @@ pub(super) const OUTCOME: Value = Value::Map(&[
     Key::required("state", STATE, "Final poses of all objects."),
     Key::required(
         "goals",
-        Value::List { of: &MISS, items: "goals", min: 0, max: 64 },
+        Value::List { of: &MISS, items: "goals", min: 0, max: MOST_BODIES },
         "Errors of the goals, in the order of the task.",
     ),
     Key::required("reached", Value::Switch, "Whether all goals are reached at rest."),

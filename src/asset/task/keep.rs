@@ -4,7 +4,7 @@ use serde_json::{Value as Json, json};
 
 use crate::asset::node::Node;
 use crate::asset::shapes;
-use crate::asset::spec::{ANGLE, Key, POSITION, SIZE, Value, numbers};
+use crate::asset::spec::{ANGLE, Key, MOST_BODIES, POSITION, SIZE, Value, numbers};
 use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, pose, vector};
 use crate::geometry::{ConvexPolygon, MAX_CORNERS, Pose, Shape};
@@ -24,7 +24,7 @@ pub(in crate::asset) const KEEP: Key = Key::optional(
     Value::Map(&[
         Key::required(
             "objects",
-            Value::List { of: &Value::Name, items: "names of objects", min: 1, max: 64 },
+            Value::List { of: &Value::Name, items: "names of objects", min: 1, max: MOST_BODIES },
             "Names of objects that must stay in place.",
         ),
         Key::optional(

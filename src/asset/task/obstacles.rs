@@ -4,7 +4,7 @@ use serde_json::{Value as Json, json};
 
 use crate::asset::node::Node;
 use crate::asset::put::degrees;
-use crate::asset::spec::{ANGLE, COORDINATE, EXTENTS, FRICTION, Key, Value};
+use crate::asset::spec::{ANGLE, COORDINATE, EXTENTS, FRICTION, Key, MOST_BODIES, Value};
 use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, number_or, pose, triple};
 use crate::scene::{Obstacle, Scene};
@@ -12,7 +12,7 @@ use crate::scene::{Obstacle, Scene};
 /// Key of the obstacles of a scene.
 pub(in crate::asset) const OBSTACLES: Key = Key::optional(
     "obstacles",
-    Value::List { of: &OBSTACLE, items: "obstacles", min: 0, max: 64 },
+    Value::List { of: &OBSTACLE, items: "obstacles", min: 0, max: MOST_BODIES },
     "Fixed cuboids, such as walls, shelves, and the floor and standoffs of a tray; by default \
      none.",
 );

@@ -1,7 +1,9 @@
 //! Specification of a task file.
 
 use crate::asset::arm::{ARM, BASE, FLANGE, HOME, TOOL_MOUNT, URDF};
-use crate::asset::spec::{ANGLE, FORCE, FRICTION, Key, POSITION, Range, SIZE, Value, numbers};
+use crate::asset::spec::{
+    ANGLE, FORCE, FRICTION, Key, MOST_BODIES, POSITION, Range, SIZE, Value, numbers,
+};
 
 use super::frictions::FRICTIONS;
 use super::goals::GOAL;
@@ -76,7 +78,7 @@ const SCENE: Value = Value::Map(&[
     PUSH_HEIGHT,
     Key::required(
         "objects",
-        Value::List { of: &OBJECT, items: "objects", min: 1, max: 64 },
+        Value::List { of: &OBJECT, items: "objects", min: 1, max: MOST_BODIES },
         "The movable objects.",
     ),
     Key::optional("joints", JOINTS, "Joints between objects; by default none."),
@@ -121,7 +123,7 @@ pub(in crate::asset) const TABLE: Key = Key::optional(
 
 /// Specification of the joints of a scene.
 pub(in crate::asset) const JOINTS: Value =
-    Value::List { of: &JOINT, items: "joints", min: 0, max: 64 };
+    Value::List { of: &JOINT, items: "joints", min: 0, max: MOST_BODIES };
 
 const ROBOT: Value = Value::Map(&[
     HOME,

@@ -5,13 +5,14 @@
 //! stated.
 
 use crate::asset::node::Node;
-use crate::asset::spec::{Key, Range, Value};
+use crate::asset::spec::{Key, MOST_BODIES, Range, Value};
 use crate::asset::strict::Ledger;
 use crate::asset::task::{JOINT_KEYS, WORLD, joint_of, mount_of};
 use crate::scene::{DisjointSets, JointKind, Scene, Span, WorldJoint};
 
 /// Specification of the joints of a world.
-pub(super) const JOINTS: Value = Value::List { of: &JOINT, items: "joints", min: 0, max: 64 };
+pub(super) const JOINTS: Value =
+    Value::List { of: &JOINT, items: "joints", min: 0, max: MOST_BODIES };
 
 const JOINT: Value = Value::Map(&[
     JOINT_KEYS[0],

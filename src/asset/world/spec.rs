@@ -1,6 +1,6 @@
 //! Specification of a world file.
 
-use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, POSITION, Range, Value};
+use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, MOST_BODIES, POSITION, Range, Value};
 use crate::asset::task::OBJECT_SUPPORT;
 
 use super::joints::JOINTS;
@@ -19,7 +19,7 @@ pub(in crate::asset) const WORLD_KEYS: &[Key] = &[
     ),
     Key::optional(
         "objects",
-        Value::List { of: &OBJECT, items: "objects", min: 0, max: 64 },
+        Value::List { of: &OBJECT, items: "objects", min: 0, max: MOST_BODIES },
         "Objects of the task whose properties differ; by default none.",
     ),
     Key::optional(

@@ -1,51 +1,17 @@
 //! All budgets of the effort, where the budgets of a first attempt do not suffice.
 //!
-//! Most tasks are solved by a draft's budgets. A search with all budgets follows only for numbers of
-//! pushes whose plans come near the goals and are not safe, and for the others if nothing works.
+//! Most tasks are solved by a draft's budgets. A search with all budgets follows only for numbers
+//! of pushes whose plans come near the goals and are not safe, and for the others if nothing works.
 
-use std::collections::VecDeque;
-
-use crate::plan::{Search, SearchStatistics, is_behind};
+use crate::plan::{Search, is_behind};
 use crate::solve::SolveError;
 use crate::solve::attempts::Attempt;
-use crate::solve::blackboard::{Blackboard, Candidates};
+use crate::solve::blackboard::Blackboard;
 use crate::solve::retry::replayed_error;
-use crate::solve::settings::Settings;
 use crate::solve::solving::{Batch, Strategy};
 
 /// Maximum predicted error of a plan near the goals, in units of the tolerances.
 const NEAR: f64 = 2.0;
-
-/// State of the search with all budgets.
-pub(in crate::solve) struct AllBudgets<'a> {
-    /// Budgets of the first attempt; `None` once all budgets have replaced them.
-    first: Option<Settings>,
-    search: Option<Search<'a>>,
-    /// Results for numbers of pushes that were not near the goals, to be tried last.
-    skipped: VecDeque<Candidates>,
-    /// Cost of the first attempt's search, once all budgets have replaced it.
-    spent: SearchStatistics,
-    /// Whether more than the first attempt was needed.
-    pub used: bool,
-}
-
-impl<'a> AllBudgets<'a> {
-    /// Creates the state before the search. `first` are the budgets of a first attempt, if there is
-    /// one.
-    pub fn after(first: Option<Settings>) -> Self {
-        let (skipped, spent) = (VecDeque::new(), SearchStatistics::default());
-        Self { first, search: None, skipped, spent, used: false }
-    }
-
-    /// Returns the statistics of all searches; `usual` is the search on the blackboard.
-    pub fn statistics(&self, usual: Option<&Search<'a>>) -> SearchStatistics {
-        let mut all = self.spent.clone();
-        for search in [usual, self.search.as_ref()].into_iter().flatten() {
-            all.add(search.statistics());
-        }
-        all
-    }
-}
 
 /// Returns the candidates of `pushes` pushes of the search with all budgets.
 fn all_budgets(board: &mut Blackboard, pushes: usize) -> Option<Batch> {

@@ -3,7 +3,8 @@
 use crate::plan::{HardenSettings, harden};
 use crate::progress::Instant;
 use crate::solve::SolveError;
-use crate::solve::blackboard::{Blackboard, Candidates};
+use crate::solve::blackboard::Blackboard;
+use crate::solve::candidates::Candidates;
 use crate::solve::grade::{Class, Grade};
 use crate::solve::solving::{Batch, Strategy};
 

@@ -13,7 +13,6 @@ mod order;
 mod push;
 mod transport;
 
-pub(super) use escalate::AllBudgets;
 pub(super) use order::{for_levers, for_pushes};
 pub use transport::Approach;
 pub(super) use transport::approach;

@@ -22,9 +22,9 @@ type Strategies<'a> = Vec<Box<dyn Strategy<'a> + 'a>>;
 /// if there are any.
 ///
 /// Plans that work nearly always are first searched among the existing results, then with all
-/// budgets, then with an obstruction cleared, then after legs of transport. Only then may plans be a
-/// push longer. If no plan works, all budgets follow for every number of pushes. Tool changes are
-/// next, if no plan with one grip is even predicted to reach the goal, and fine lateral offsets come
+/// budgets, then with an obstruction cleared, then after legs of transport. Only then may plans be
+/// a push longer. If no plan works, all budgets follow for every number of pushes. Tool changes are
+/// next, if no plan with one grip is even predicted to reach the goal. Fine lateral offsets come
 /// last.
 pub(in crate::solve) fn for_pushes<'a>(alone: Option<&'a (Task, Situation)>) -> Strategies<'a> {
     vec![

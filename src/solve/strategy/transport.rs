@@ -11,7 +11,8 @@ use crate::progress::Instant;
 use crate::scene::Tool;
 use crate::solve::SolveError;
 use crate::solve::arm_feasibility::arm_fault;
-use crate::solve::blackboard::{Blackboard, Candidates};
+use crate::solve::blackboard::Blackboard;
+use crate::solve::candidates::Candidates;
 use crate::solve::solving::{Batch, Strategy};
 use crate::task::Plan;
 

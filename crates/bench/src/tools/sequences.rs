@@ -7,9 +7,9 @@
 //! Sequences with a common beginning share it. For t tool poses and d directions, three-push
 //! sequences need t (d + d^2 + d^3) rolled-out pushes instead of 3 t d^3. This is exact for an
 //! effect model whose state consists of poses and velocities only, because resuming from the state
-//! at the end of a push is the same computation. The network, which corrects a motion as a whole,
-//! differs by tenths of a millimetre. A simulator also has contact forces as state, so its sequences
-//! can be executed from their beginnings instead.
+//! at the end of a push is the same computation. The network, which corrects a motion as a
+//! whole, differs by tenths of a millimetre. A simulator also has contact forces as state, so its
+//! sequences can be executed from their beginnings instead.
 //!
 //! The final position of the cylinder after a stop is estimated by free sliding, which ranks the
 //! stops; users of a stop roll it out.
