@@ -116,7 +116,7 @@ impl Planner {
         let motion = |tool: &Arc<Tool>| typical(task, &situation.start, tool);
         self.refuse(task, situation, tools.iter().map(motion))?;
         let until = Until::new(progress, self.time_limit);
-        let (tools, settings) = (&tools, self.settings().first_attempt());
+        let (tools, settings) = (&tools, self.settings().first_attempt(task));
         solve_pushes(Query { planner: self, task, situation, tools, progress: &until, settings })
     }
 
@@ -143,7 +143,8 @@ impl Planner {
         }
         let tools = task.tools(library)?;
         check(task, &situation, &tools[..])?;
-        let (tools, situation, settings) = (&tools, &situation, self.settings().first_attempt());
+        let (tools, situation, settings) =
+            (&tools, &situation, self.settings().first_attempt(task));
         let query = Query { planner: self, task, situation, tools, progress, settings };
         let unobstructed = unobstructed(&query);
         let mut board = Blackboard::for_pushes(query, query.search());

@@ -30,7 +30,7 @@ pub(super) struct Query<'a> {
     /// Allowed tools: for pushing, or with blades in a task of levering.
     pub tools: &'a [Arc<Tool>],
     pub progress: &'a dyn Progress,
-    /// Budgets: the planner's, or those of a first attempt.
+    /// Budgets of the planner or of its first attempt.
     pub settings: Settings,
 }
 

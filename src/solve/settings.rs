@@ -5,6 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::plan::SearchSettings;
+use crate::task::Task;
 
 use super::LeverSettings;
 
@@ -93,9 +94,12 @@ impl Settings {
     }
 
     /// Returns the budgets of a first attempt: a draft's, with as many replays. Most tasks need no
-    /// more.
+    /// more, but a comparison of the tools' costs does.
     #[must_use]
-    pub fn first_attempt(&self) -> Self {
+    pub fn first_attempt(&self, task: &Task) -> Self {
+        if !task.tool_costs.is_empty() {
+            return *self;
+        }
         let draft = Effort::Draft.settings();
         Self {
             offsets: self.offsets.min(draft.offsets),

@@ -138,7 +138,7 @@ pub(super) const STATE: Value = Value::Map(&[
     ),
     Key::optional(
         "space",
-        Value::List { of: &POSE_IN_SPACE, items: "poses", min: 1, max: 64 },
+        Value::List { of: &POSE_IN_SPACE, items: "poses", min: 1, max: MOST_BODIES },
         "3-D poses, once an object has left the plane; by default none.",
     ),
 ]);

@@ -119,8 +119,8 @@ impl Rate {
 
     /// The rate of perturbed replays in 3-D, whose verdict on a plan is a share.
     ///
-    /// Of 390 perturbed replays near the edge of their tolerances, 43 are judged otherwise than at
-    /// 1/960 s, and 35 at the default rate, for two thirds of the cost.
+    /// The verdicts on 43 of 126 perturbed replays near the edge of their tolerances differ from
+    /// those at 1/960 s, and on 35 at the default rate, for two thirds of the cost.
     pub const PERTURBED: Self = Self(NonZeroU16::MIN.saturating_add(119));
 
     /// Returns the length of a step, seconds.

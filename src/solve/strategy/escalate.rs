@@ -1,7 +1,7 @@
-//! All budgets of the effort, where the budgets of a first attempt do not suffice.
+//! Search with all budgets of the effort, where the budgets of a first attempt do not suffice.
 //!
-//! Most tasks are solved by a draft's budgets. A search with all budgets follows only for numbers
-//! of pushes whose plans come near the goals and are not safe, and for the others if nothing works.
+//! A draft's budgets solve most tasks. A search with all budgets follows only for numbers of pushes
+//! whose plans come near the goals and are not safe, and for the others if nothing works.
 
 use crate::plan::{Search, is_behind};
 use crate::solve::SolveError;

@@ -16,8 +16,8 @@ use super::regression::Regression;
 
 /// Candidate prior standard deviations of the head parameters.
 ///
-/// Hidden rows have a norm of about 1 and an output unit is 10 mm, so the widest prior changes a
-/// frame by about a millimetre.
+/// Rows have a norm of about 10 and outputs are relative to the motion, so that the widest prior
+/// changes a motion by about its length.
 const PRIORS: [f64; 5] = [0.005, 0.01, 0.02, 0.04, 0.08];
 
 /// Number of folds of the cross-validation that chooses the prior.
