@@ -265,7 +265,8 @@ impl Goal {
         let goal = self.in_world(&start);
         let own = || start.poses.get(self.object).map(|pose| pose.position);
         let marks = goal.demands.iter().flat_map(|one| one.kind().marks(self.object, scene));
-        let centre = goal.position().or_else(own).unwrap_or_default();
-        ShownGoal { objects: self.movers(), centre, marks: marks.collect() }
+        let (place, marks) = (goal.position(), marks.collect());
+        let centre = place.or_else(own).unwrap_or_default();
+        ShownGoal { objects: self.movers(), centre, placed: place.is_some(), marks }
     }
 }

@@ -127,6 +127,10 @@ function grid() {
   for (const region of task.stage.regions ?? []) still(region.shape, region.at, 'keep-out', region.name);
   for (const goal of task.stage.goals) {
     for (const area of goal.areas) still(area.shape, area.at, area.leave ? 'leave' : 'goal', goal.words);
+    for (const mark of goalMarks(goal, px, map)) {
+      mark.append(svg('title', {}, goal.words));
+      root.append(mark);
+    }
   }
   for (const { kind, pose } of things()) {
     if (kind === 'reach') root.append(svg('circle', { cx: x, cy: y, r: px(pose[0]), class: 'reach' }));

@@ -6,4 +6,6 @@ const LAYERS = { predicted: 'predicted', planar: '2-D', spatial: '3-D', seen: 'o
 
 /** All goals; a recording has none. */
 const { goals } = page.stage;
-const wants = (object) => goals.some((goal) => goal.objects.includes(object));
+/** Returns the object of which this one is a part, or its own index. */
+const whole = (object) => page.stage.objects[object]?.whole ?? object;
+const wants = (object) => goals.some((goal) => goal.objects.includes(whole(object)));

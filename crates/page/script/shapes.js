@@ -22,3 +22,18 @@ function placed([x, y, heading], [u, v]) {
   const [c, s] = [Math.cos(heading), Math.sin(heading)];
   return [x + c * u - s * v, y + s * u + c * v];
 }
+
+/** Returns the marks of a goal other than its position and areas; `map` converts a point in metres to pixels. */
+function goalMarks({ bands = [], covers = [], edges = [] }, px, map) {
+  const points = (corners) => corners.map(([x, y]) => map([x * LENGTH, y * LENGTH]).join(',')).join(' ');
+  const marks = [];
+  for (const { pieces, from, to } of bands) for (const piece of pieces) {
+    // A line about the outline with round corners covers exactly these distances.
+    const width = Math.max(3, 2 * px(to * LENGTH));
+    marks.push(svg('polygon', { points: points(piece), class: 'band', 'stroke-width': width }));
+    if (from) marks.push(svg('polygon', { points: points(piece), class: 'leave' }));
+  }
+  for (const piece of covers) marks.push(svg('polygon', { points: points(piece), class: 'goal' }));
+  for (const edge of edges) marks.push(svg('polyline', { points: points(edge), class: 'goal-edge' }));
+  return marks;
+}

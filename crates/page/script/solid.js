@@ -131,8 +131,12 @@ const solid = (() => {
 
   function drawGoal(goal, objects) {
     const at = posed([...goal.at, 0]);
+    const flat = ([x, y]) => [x * LENGTH, y * LENGTH, 2 * THIN];
+    const rounds = [...(goal.covers ?? []), ...(goal.bands ?? []).flatMap(({ pieces }) => pieces)];
+    for (const corners of rounds) scene.add(line([...corners, corners[0]].map(flat), colour('goal')));
+    for (const edge of goal.edges ?? []) scene.add(line(edge.map(flat), colour('goal')));
     const disc = { shape: { disc: goal.tolerance }, at: [...goal.at, 0] };
-    for (const area of goal.areas.length ? goal.areas : [disc]) {
+    for (const area of goal.areas.length || !goal.tolerance ? goal.areas : [disc]) {
       const place = posed(area.at);
       const corners = area.shape.polygon?.map(([x, y]) => new THREE.Vector2(x * LENGTH, y * LENGTH));
       const rim = area.shape.disc * LENGTH;

@@ -141,14 +141,15 @@
     const own = objects[goal.objects[0]];
     wanted[2] = goal.heading ? goal.heading[0] * FINE : posed(own.at)[2];
     const [x, y] = map(wanted);
-    if (goal.heading || 'disc' in own.shape) {
+    if (goal.heading || ('disc' in own.shape && !goal.unplaced)) {
       still.append(outline(own.shape, { transform: at(wanted), class: 'wanted' }));
     }
     for (const area of goal.areas) {
       still.append(outline(area.shape, { transform: at(posed(area.at)), class: area.leave ? 'leave' : 'goal' }));
     }
-    if (!goal.areas.length) still.append(svg('circle', { cx: x, cy: y, r: px(goal.tolerance * LENGTH), class: 'goal' }));
-    still.append(svg('path', { d: `M${x - 7} ${y}h14M${x} ${y - 7}v14`, class: 'goal-cross' }));
+    if (!goal.areas.length && goal.tolerance) still.append(svg('circle', { cx: x, cy: y, r: px(goal.tolerance * LENGTH), class: 'goal' }));
+    still.append(...goalMarks(goal, px, map));
+    if (!goal.unplaced) still.append(svg('path', { d: `M${x - 7} ${y}h14M${x} ${y - 7}v14`, class: 'goal-cross' }));
     for (const object of goal.objects) for (const replay of shown()) {
       const columns = replay.objects[object];
       const points = Array.from(replay.time, (_, k) => [columns[0][k], columns[1][k]]);
@@ -198,7 +199,7 @@
       });
     }
     objects.forEach((body, k) => {
-      if (px(radius(body.shape)) < 4 * body.name.length) return;
+      if (body.whole !== undefined || px(radius(body.shape)) < 4 * body.name.length) return;
       const label = svg('text', { class: 'label middle', y: 4 }, body.name);
       add(label, (time) => {
         const [x, y] = map(lead.object(k, time));

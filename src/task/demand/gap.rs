@@ -199,10 +199,18 @@ impl Kind for Gap {
     fn marks(&self, object: usize, scene: &Scene) -> Vec<Mark> {
         let object = scene.objects.get(object);
         let nearest = object.and_then(|object| self.nearest(&object.pose, &scene.start()));
-        nearest
-            .map(|nearest| Mark::Distance([nearest.on_first, nearest.on_second]))
-            .into_iter()
-            .collect()
+        let line = nearest.map(|nearest| Mark::Distance([nearest.on_first, nearest.on_second]));
+        let frame = match self.to {
+            Body::Object(other) => scene.objects.get(other).map(|object| object.pose),
+            _ => Some(Pose::default()),
+        };
+        let [_, others] = self.outlines();
+        let band = frame.filter(|_| self.max.is_finite()).map(|frame| Mark::Band {
+            pieces: others.map(|area| area.seen_from(&frame).corners()).collect(),
+            from: self.min,
+            to: self.max,
+        });
+        band.into_iter().chain(line).collect()
     }
 }
 

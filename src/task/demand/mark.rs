@@ -39,6 +39,15 @@ pub enum Mark {
     },
     /// A distance that must come within limits.
     Distance([Vector; 2]),
+    /// Distances from another body within which an outline must come.
+    Band {
+        /// The other body: corners of convex polygons.
+        pieces: Vec<Vec<Vector>>,
+        /// Smallest distance.
+        from: f64,
+        /// Largest distance.
+        to: f64,
+    },
     /// A part of an edge of the table that must be crossed.
     Edge([Vector; 2]),
     /// A height above the table that an edge must reach.
@@ -52,6 +61,8 @@ pub struct ShownGoal {
     pub objects: Vec<usize>,
     /// Centre of the marks: a wanted position, or the position of the object at the start, metres.
     pub centre: Vector,
+    /// Whether the centre is a wanted position.
+    pub placed: bool,
     /// The marks.
     pub marks: Vec<Mark>,
 }

@@ -94,6 +94,9 @@ pub struct Body {
     /// Height of the underside above the body's origin.
     #[serde(skip_serializing_if = "is_zero")]
     pub under: i64,
+    /// Index of the object of which it is a part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub whole: Option<usize>,
     /// Solids fixed to this body.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub more: Vec<Body>,
@@ -120,10 +123,22 @@ pub struct Goal {
     /// Indices of the objects that the goal may move, its own first.
     pub objects: Vec<usize>,
     pub at: [i64; 2],
+    /// Whether `at` is no wanted position but the start of the object.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub unplaced: bool,
     /// Position tolerance; zero for a region and for a goal without a position.
     pub tolerance: i64,
     /// Regions that a centre must enter or leave.
     pub areas: Vec<Area>,
+    /// Distances from other bodies within which the outline must come.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bands: Vec<Band>,
+    /// Outlines that must be covered, corners of polygons.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub covers: Vec<Vec<[i64; 2]>>,
+    /// Parts of edges of the table that must be crossed.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub edges: Vec<[[i64; 2]; 2]>,
     /// Wanted heading and its tolerance, if the goal has one.
     pub heading: Option<[i64; 2]>,
     /// Midpoint of the joint limits, used to unwrap headings to the nearest turn.
@@ -142,6 +157,15 @@ pub struct Area {
     pub at: [i64; 3],
     /// Whether a centre must leave the region.
     pub leave: bool,
+}
+
+/// Distances from a body.
+#[derive(Serialize)]
+pub struct Band {
+    /// Corners of the body's polygons.
+    pub pieces: Vec<Vec<[i64; 2]>>,
+    pub from: i64,
+    pub to: i64,
 }
 
 #[derive(Serialize)]

@@ -12,11 +12,11 @@ const STAGE: &str = "<figure class=\"stage\" id=\"stage\">";
 
 /// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64, for the content security policy. A test compares
 /// the hashes, so that a release needs no hash function.
-const SCRIPT_HASH: &str = "0fW1B6D1XJEXm7zjhErF1p1CdGJXNMGz4OC1X84rvRw=";
-const STYLE_HASH: &str = "u7EzjcKpkdT4aibEyFyU17AosQ01L3krmKju702UC+s=";
+const SCRIPT_HASH: &str = "FjARdcqlJevZWWkJ9WTcqRTc1kIwftB0eD/DiKXZzZk=";
+const STYLE_HASH: &str = "EZFwHAX62sKBHcEGA7NYgCLbeerq6M2XYbrKH0SFxYg=";
 
 /// SHA-256 of [`SOLID`], and of three.js after decompression.
-const SOLID_HASH: &str = "c0615TBTY0/au0uIk1aKlbxA2NvNAr1ix+Kzmvemgbk=";
+const SOLID_HASH: &str = "yw2mEbNnWOzMihIU0xb6G27QZui+oaLBDQw4g4So060=";
 const THREE_HASH: &str = "1DAXuURetgEpYc3wVeanFNbtMNUCQJJKMDFxE8xxJxc=";
 
 /// Views of the table on a page.

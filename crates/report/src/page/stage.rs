@@ -9,7 +9,7 @@ use pushplan::{
     task::{self, Mark, Plan, ShownGoal, Task},
 };
 
-use super::data::{Area, Body, Goal, Outline, Stage, Tool, fine, length, point, pose};
+use super::data::{Area, Band, Body, Goal, Outline, Stage, Tool, fine, length, point, pose};
 
 /// Returns scene, reach and goals of a task.
 pub fn stage(task: &Task) -> Stage {
@@ -27,8 +27,12 @@ fn drawn(shown: &ShownGoal, task: &Task) -> Goal {
     let mut goal = Goal {
         objects: shown.objects.clone(),
         at: point(shown.centre),
+        unplaced: !shown.placed,
         tolerance: 0,
         areas: Vec::new(),
+        bands: Vec::new(),
+        covers: Vec::new(),
+        edges: Vec::new(),
         heading: None,
         middle: None,
         alike: 1,
@@ -40,6 +44,15 @@ fn drawn(shown: &ShownGoal, task: &Task) -> Goal {
             Mark::Disc { radius, .. } if !task.in_space() => goal.tolerance = length(*radius),
             Mark::Area(area) => goal.areas.push(region(area, false)),
             Mark::Outside(area) => goal.areas.push(region(area, true)),
+            Mark::Band { pieces, from, to } => goal.bands.push(Band {
+                pieces: pieces.iter().map(|piece| points(piece)).collect(),
+                from: length(*from),
+                to: length(*to),
+            }),
+            Mark::Outline { pieces, .. } => {
+                goal.covers.extend(pieces.iter().map(|piece| points(piece)));
+            }
+            Mark::Edge(ends) => goal.edges.push(ends.map(point)),
             Mark::Headings { heading, tolerance, limit_middle, symmetry } => {
                 goal.heading = Some([fine(*heading), fine(*tolerance)]);
                 goal.middle = limit_middle.map(fine);
@@ -49,6 +62,10 @@ fn drawn(shown: &ShownGoal, task: &Task) -> Goal {
         }
     }
     goal
+}
+
+fn points(corners: &[Vector]) -> Vec<[i64; 2]> {
+    corners.iter().map(|corner| point(*corner)).collect()
 }
 
 fn region(area: &task::Area, leave: bool) -> Area {
@@ -73,6 +90,7 @@ pub fn table(scene: &Scene) -> Stage {
         shape: outline(&object.shape),
         height: length(object.shape.height()),
         under: length(object.span()[0]),
+        whole: (object.is_part() && !in_space).then(|| scene.thing(k)),
         more: match in_space {
             true => Plate::of(scene, k).slabs[1..].iter().map(slab).collect(),
             false => Vec::new(),
@@ -84,6 +102,7 @@ pub fn table(scene: &Scene) -> Stage {
         shape: outline(&obstacle.shape()),
         height: length(obstacle.size[2]),
         under: length(obstacle.z),
+        whole: None,
         more: Vec::new(),
         at: pose(&obstacle.pose),
     });
@@ -92,6 +111,7 @@ pub fn table(scene: &Scene) -> Stage {
         shape: outline(&region.shape),
         height: 0,
         under: 0,
+        whole: None,
         more: Vec::new(),
         at: pose(&region.pose),
     });
@@ -112,6 +132,7 @@ pub fn tool(tool: &scene::Tool, file: Json) -> Tool {
         shape: outline(&part.shape),
         height: length(part.shape.height()),
         under: 0,
+        whole: None,
         more: Vec::new(),
         at: pose(&part.pose),
     });
@@ -122,6 +143,7 @@ pub fn tool(tool: &scene::Tool, file: Json) -> Tool {
         shape: outline(&Shape::Cuboid { size: [long, width, thickness] }),
         height: length(thickness),
         under: length(-0.5 * thickness),
+        whole: None,
         more: Vec::new(),
         at: [0; 3],
     }));
@@ -143,6 +165,7 @@ pub fn hand(task: &Task, tool: &scene::Tool, plan: &Plan) -> Option<Body> {
         shape: Outline::Disc(length(radius)),
         height: length(SHOWN_HAND),
         under: length(from - plan.lift()),
+        whole: None,
         more: Vec::new(),
         at: pose(&at),
     })
@@ -155,6 +178,7 @@ fn slab(slab: &Slab) -> Body {
         shape: Outline::Polygon(slab.corners.iter().map(|corner| point(*corner)).collect()),
         height: length(slab.height),
         under: length(slab.bottom),
+        whole: None,
         more: Vec::new(),
         at: [0; 3],
     }

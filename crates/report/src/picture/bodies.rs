@@ -29,16 +29,32 @@ pub fn reach(svg: &mut Svg, view: &View, robot: &Robot) {
     svg.text(base + Vector::new(0.0, 18.0), "robot", font);
 }
 
-/// Draws the areas in which a goal's object may end at rest.
+/// Draws the areas in which a goal's object may end at rest, or which it must touch.
 pub fn goal_area(svg: &mut Svg, view: &View, goal: &ShownGoal) {
     for mark in &goal.marks {
-        if !matches!(mark, Mark::Outside(_)) {
-            area(svg, view, mark, palette::GOAL_AREA);
+        match mark {
+            Mark::Outside(_) => {}
+            Mark::Band { pieces, from, to } => {
+                // Lines about the outline with round corners cover exactly these distances.
+                let wide = Style::stroke(palette::GOAL, (2.0 * view.length(*to)).max(3.0));
+                outlines(svg, view, pieces, wide.opacity(palette::GOAL_BAND));
+                if *from > 0.0 {
+                    outlines(svg, view, pieces, Style::stroke("#ffffff", 2.0 * view.length(*from)));
+                }
+            }
+            _ => area(svg, view, mark, palette::GOAL_AREA),
         }
     }
 }
 
-/// Draws the rims of the goal areas, a cross in their middle, and all other marks.
+fn outlines(svg: &mut Svg, view: &View, pieces: &[Vec<Vector>], style: Style) {
+    for piece in pieces {
+        let corners: Vec<Vector> = piece.iter().map(|corner| view.map(*corner)).collect();
+        svg.polygon(&corners, style);
+    }
+}
+
+/// Draws the rims of the goal areas, a cross at the wanted position, and all other marks.
 pub fn goal(svg: &mut Svg, view: &View, goal: &ShownGoal) {
     let centre = view.map(goal.centre);
     let dashed = palette::GOAL_RIM.dashed("6 3");
@@ -47,7 +63,8 @@ pub fn goal(svg: &mut Svg, view: &View, goal: &ShownGoal) {
         area(svg, view, mark, if outside { dashed } else { palette::GOAL_RIM });
     }
     let arm = 7.0;
-    for side in [Vector::new(arm, 0.0), Vector::new(0.0, arm)] {
+    let arms = [Vector::new(arm, 0.0), Vector::new(0.0, arm)];
+    for side in arms.into_iter().filter(|_| goal.placed) {
         svg.line(centre - side, centre + side, palette::GOAL_RIM);
     }
     let radius = goal.marks.iter().find_map(|mark| match mark {
@@ -79,12 +96,7 @@ fn area(svg: &mut Svg, view: &View, mark: &Mark, style: Style) {
         Mark::Area(area) | Mark::Outside(area) => {
             view.footprint(svg, &area.shape.footprint(), &area.pose, style);
         }
-        Mark::Outline { pieces, .. } => {
-            for piece in pieces {
-                let corners: Vec<Vector> = piece.iter().map(|corner| view.map(*corner)).collect();
-                svg.polygon(&corners, style);
-            }
-        }
+        Mark::Outline { pieces, .. } => outlines(svg, view, pieces, style),
         _ => {}
     }
 }

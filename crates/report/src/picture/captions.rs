@@ -41,10 +41,15 @@ impl Captions<'_> {
     /// caption.
     pub fn captions(&self, stage: &mut Stage, at: Vector) {
         let rest = stage.timeline.rest();
-        let name =
-            self.task.scene.objects.get(self.goal().object).map_or("object", |object| &object.name);
-        let within = millimetres(self.goal().tolerance());
-        let mut captions = vec![(0.0, format!("{name} must come within {within} of the goal"))];
+        let goal = self.goal();
+        let name = self.task.scene.objects.get(goal.object).map_or("object", |one| &one.name);
+        let wanted = match self.is_placed() {
+            true => {
+                format!("{name} must come within {} of the goal", millimetres(goal.tolerance()))
+            }
+            false => goal.line(&self.task.scene),
+        };
+        let mut captions = vec![(0.0, wanted)];
         let count = self.strokes.len();
         let one = self.strokes.windows(2).all(|pair| pair[0].0.name == pair[1].0.name);
         let spans = stage.timeline.strokes.iter();
@@ -83,8 +88,15 @@ impl Captions<'_> {
         stage.loops.animate("ring", &keys, [0.01; 2], |[size, shown]| {
             format!("transform:scale({});opacity:{}", short(size, 2), short(shown, 2))
         });
-        let place = stage.view.map(self.goal().place(&self.task.scene.start()));
-        let radius = stage.view.length(self.goal().tolerance()).max(14.0);
+        let end = self.trajectory.outcome().poses.get(self.goal().object).map(|pose| pose.position);
+        let (place, radius) = match (self.is_placed(), end) {
+            (false, Some(end)) => (end, 14.0),
+            _ => {
+                let radius = stage.view.length(self.goal().tolerance()).max(14.0);
+                (self.goal().place(&self.task.scene.start()), radius)
+            }
+        };
+        let place = stage.view.map(place);
         stage.svg.open_moved("goal", place, 0.0);
         stage.svg.open_shown("ring", 0.0);
         stage.svg.circle(Vector::zeros(), radius, Style::stroke(palette::GOOD, 2.5));
@@ -94,14 +106,20 @@ impl Captions<'_> {
     /// Writes the outcome behind a tick or a cross.
     fn ending(&self, svg: &mut Svg, at: Vector) {
         let Some(last) = self.trajectory.frames.last() else { return };
-        let error = millimetres(self.goal().error(&last.state));
-        let allowed = millimetres(self.goal().tolerance());
+        let (error, allowed) = match self.is_placed() {
+            true => {
+                let error = millimetres(self.goal().error(&last.state));
+                let allowed = millimetres(self.goal().tolerance());
+                (format!(": final error {error}"), format!(", allowed {allowed}"))
+            }
+            false => (String::new(), String::new()),
+        };
         let (colour, words, mark): (_, _, &[[f64; 2]]) = if self.is_reached() {
             let tick = &[[-3.6, 0.2], [-1.2, 2.8], [3.8, -2.6]];
-            (palette::GOOD, format!("reached: final error {error}"), tick)
+            (palette::GOOD, format!("reached{error}"), tick)
         } else {
             let cross = &[[-3.0, -3.0], [3.0, 3.0], [0.0, 0.0], [-3.0, 3.0], [3.0, -3.0]];
-            let words = format!("missed: final error {error}, allowed {allowed}");
+            let words = format!("missed{error}{allowed}");
             (palette::BAD, words, cross)
         };
         let centre = at + Vector::new(8.0, -5.0);
@@ -114,6 +132,11 @@ impl Captions<'_> {
     /// Returns the first goal.
     fn goal(&self) -> &Goal {
         &self.task.goals[0]
+    }
+
+    /// Returns `true` if the first goal is a position with a tolerance.
+    fn is_placed(&self) -> bool {
+        self.goal().position().is_some() && self.goal().tolerance().is_finite()
     }
 
     fn is_reached(&self) -> bool {

@@ -35,7 +35,9 @@ impl Extent<'_> {
             bounds.add_body(&region.footprint(), &region.pose);
         }
         for goal in &self.goals {
-            bounds.add(goal.centre, 0.0);
+            if goal.placed {
+                bounds.add(goal.centre, 0.0);
+            }
             for mark in &goal.marks {
                 match mark {
                     Mark::Area(area) => bounds.add_body(&area.shape.footprint(), &area.pose),

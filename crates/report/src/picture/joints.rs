@@ -2,7 +2,7 @@
 
 use crate::svg::{Style, Svg};
 use pushplan::geometry::{ContactPoint, Pose, Vector, contact_points, perpendicular};
-use pushplan::scene::{Joint, JointKind, Object, Span};
+use pushplan::scene::{Joint, JointKind, Object, Scene, Span};
 
 use super::view::View;
 
@@ -60,6 +60,15 @@ impl Symbol {
             }
         }
     }
+}
+
+/// Returns the joints of a scene except those between parts of one object.
+pub fn between_things(scene: &Scene) -> impl Iterator<Item = &Joint> {
+    let apart = |joint: &&Joint| {
+        let [a, b] = joint.between.map(|k| scene.thing(k));
+        a != b
+    };
+    scene.joints.iter().filter(apart)
 }
 
 /// Draws a joint with its objects at `poses`.

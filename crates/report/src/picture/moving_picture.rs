@@ -93,7 +93,7 @@ impl MovingPicture<'_> {
         for (k, object) in self.task.scene.objects.iter().enumerate() {
             if bodies::moved(object, &ends[k]) {
                 stage.svg.open_faded(palette::START);
-                bodies::object(&mut stage.svg, &view, object, self.task.has_goal(k));
+                bodies::object(&mut stage.svg, &view, object, self.is_goal(k));
                 stage.svg.close();
                 self.way(stage, k);
             }
@@ -103,7 +103,7 @@ impl MovingPicture<'_> {
             self.animate(stage, k);
             self.open_object(stage, k, &ends[k]);
             let own = Object { pose: Pose::default(), ..object.clone() };
-            bodies::object(&mut stage.svg, &view.centred(), &own, self.task.has_goal(k));
+            bodies::object(&mut stage.svg, &view.centred(), &own, self.is_goal(k));
             stage.close(2);
         }
         self.joints(stage, &ends);
@@ -145,7 +145,7 @@ impl MovingPicture<'_> {
         stage.loops.animate(&class, &keys, [SEEN / length], |[left]| {
             format!("stroke-dashoffset:{}", short(left, 4))
         });
-        let style = if self.task.has_goal(k) { palette::GOAL_WAY } else { palette::OTHER_WAY };
+        let style = if self.is_goal(k) { palette::GOAL_WAY } else { palette::OTHER_WAY };
         stage.svg.drawn_line(&class, &points, style);
     }
 
@@ -175,7 +175,7 @@ impl MovingPicture<'_> {
     /// Draws every joint with the motion of its first object, in whose frame it is defined.
     fn joints(&self, stage: &mut Stage, ends: &[Pose]) {
         let objects = &self.task.scene.objects;
-        for joint in &self.task.scene.joints {
+        for joint in joints::between_things(&self.task.scene) {
             let first = joint.between[0];
             let own = objects[first].pose.inverse();
             let poses: Vec<Pose> = objects.iter().map(|object| own * object.pose).collect();
@@ -184,6 +184,11 @@ impl MovingPicture<'_> {
             joints::joint(&mut stage.svg, &centred, objects, joint, &poses, palette::INK);
             stage.close(2);
         }
+    }
+
+    /// Returns `true` if an object or its whole has a goal.
+    fn is_goal(&self, k: usize) -> bool {
+        self.task.has_goal(self.task.scene.thing(k))
     }
 
     fn captions(&self) -> Captions<'_> {
@@ -242,13 +247,13 @@ impl MovingPicture<'_> {
         };
         let tool = Style::fill(palette::TOOL_FILL).outlined(palette::TOOL, 1.4);
         let mut entries = vec![(Sample::Area(palette::GOAL_OBJECT), "object to move".to_owned())];
-        if self.task.scene.objects.len() > 1 {
+        if (0..self.task.scene.objects.len()).any(|k| !self.is_goal(k)) {
             entries.push((Sample::Area(palette::OTHER_OBJECT), "other object".to_owned()));
         }
         entries.push((Sample::Ring(palette::GOAL_RIM), tolerance));
         entries.push((Sample::Area(tool), strokes::tools(self.motions)));
         for (symbol, words) in Symbol::ALL {
-            if self.task.scene.joints.iter().any(|joint| Symbol::of(joint) == symbol) {
+            if joints::between_things(&self.task.scene).any(|joint| Symbol::of(joint) == symbol) {
                 entries.push((Sample::Joint(symbol), words.to_owned()));
             }
         }

@@ -31,6 +31,8 @@ pub const OTHER_OBJECT: Style = Style::fill("#dee2e6").outlined("#868e96", 1.4);
 pub const GOAL_WAY: Style = Style::stroke("#1c6fbf", 2.4);
 pub const OTHER_WAY: Style = Style::stroke("#868e96", 1.4);
 pub const GOAL_AREA: Style = Style::fill(GOAL).opacity(0.10);
+/// Opacity of the distances at which a goal is met.
+pub const GOAL_BAND: f64 = 0.25;
 pub const GOAL_RIM: Style = Style::stroke(GOAL, 1.6);
 pub const GOAL_MISS: Style = Style::stroke(GOAL, 1.2).dashed("1 4");
 pub const TOOL_FILL: &str = "#d0ab83";

@@ -129,7 +129,7 @@ impl ScenePicture<'_> {
             bodies::object(svg, view, object, self.is_goal(k));
         }
         let start: Vec<Pose> = self.scene.objects.iter().map(|object| object.pose).collect();
-        for joint in &self.scene.joints {
+        for joint in joints::between_things(self.scene) {
             joints::joint(svg, view, &self.scene.objects, joint, &start, palette::INK);
         }
         for goal in &self.goals {
@@ -159,12 +159,13 @@ impl ScenePicture<'_> {
             drawn[k] = true;
             strokes::path(svg, view, track.trajectory, k, style);
             bodies::final_object(svg, view, object, end, style);
-            if let Some(goal) = self.goals.iter().find(|goal| goal.objects.contains(&k)) {
+            let own = |goal: &&ShownGoal| goal.objects.contains(&k);
+            if let Some(goal) = self.goals.iter().find(own) {
                 bodies::miss(svg, view, goal, end.position);
             }
         }
         let (objects, ends) = (&self.scene.objects, &last.state.poses);
-        for joint in &self.scene.joints {
+        for joint in joints::between_things(self.scene) {
             let [first, second] = joint.between;
             let finite = ends[first].is_finite() && ends[second].is_finite();
             if finite && (drawn[first] || drawn[second]) {
@@ -174,7 +175,8 @@ impl ScenePicture<'_> {
     }
 
     fn is_goal(&self, object: usize) -> bool {
-        self.goals.iter().any(|goal| goal.objects.contains(&object))
+        let thing = self.scene.thing(object);
+        self.goals.iter().any(|goal| goal.objects.contains(&thing))
     }
 
     fn entries(&self) -> Vec<(Sample, String)> {
@@ -183,11 +185,11 @@ impl ScenePicture<'_> {
         if !self.goals.is_empty() {
             add(Sample::Area(palette::GOAL_OBJECT), "object to move, at the start".to_owned());
         }
-        if self.scene.objects.len() > self.goals.len() {
+        if (0..self.scene.objects.len()).any(|k| !self.is_goal(k)) {
             add(Sample::Area(palette::OTHER_OBJECT), "other object, at the start".to_owned());
         }
         for (symbol, words) in Symbol::ALL {
-            if self.scene.joints.iter().any(|joint| Symbol::of(joint) == symbol) {
+            if joints::between_things(self.scene).any(|joint| Symbol::of(joint) == symbol) {
                 add(Sample::Joint(symbol), words.to_owned());
             }
         }
@@ -204,6 +206,10 @@ impl ScenePicture<'_> {
         if let Some(goal) = self.goals.first() {
             let words = goal.marks.iter().map(|mark| match mark {
                 Mark::Disc { radius, .. } => format!(", tolerance {:.0} mm", radius * 1e3),
+                Mark::Band { from, to, .. } if *from > 0.0 => {
+                    format!(", gap of {:.0} to {:.0} mm", from * 1e3, to * 1e3)
+                }
+                Mark::Band { to, .. } => format!(", gap of at most {:.0} mm", to * 1e3),
                 Mark::Headings { tolerance, .. } => {
                     format!(", \u{00b1}{:.0}\u{00b0}", tolerance.to_degrees())
                 }

@@ -3,6 +3,7 @@
 use super::*;
 use pushplan::geometry::Shape;
 use pushplan::scene::{Joint, JointKind, ModelKind, Object};
+use pushplan::task::Task;
 
 fn picture_of(ends: Vec<Pose>) -> String {
     jointed_picture_of(ends, Vec::new())
@@ -55,4 +56,49 @@ fn a_wild_prediction_leaves_a_readable_picture() {
     let size = |svg: &str| svg.split('>').next().map(str::to_owned);
     assert_eq!(size(&calm), size(&wild));
     assert!(!wild.contains("NaN"));
+}
+
+/// Returns the picture of a shipped task without a plan.
+fn picture(name: &str) -> String {
+    let task = Task::example(name).expect("a shipped task");
+    ScenePicture {
+        title: name.to_owned(),
+        notes: Vec::new(),
+        scene: &task.scene,
+        goals: task.shown_goals(),
+        robot: None,
+        motions: &[],
+        tracks: Vec::new(),
+    }
+    .to_svg()
+}
+
+#[test]
+fn every_kind_of_goal_has_its_own_mark() {
+    // A cross marks a wanted position: two lines of 14 pixels.
+    let crosses = |svg: &str| {
+        let goal = format!("stroke=\"{}\"", palette::GOAL);
+        svg.lines().filter(|line| line.starts_with("<line") && line.contains(&goal)).count()
+    };
+    let place = picture("pull-back");
+    assert!(place.contains("goal, tolerance 20 mm") && crosses(&place) == 2);
+    // The band about the fence is drawn instead of a position.
+    let gap = picture("fence-flush");
+    assert!(gap.contains("gap of at most 3 mm") && gap.contains("opacity=\"0.25\""), "{gap}");
+    assert_eq!(crosses(&gap), 2, "the nearest distance, and an arrow of the heading");
+    assert_eq!(crosses(&picture("open-door")), 1, "an arrow of the heading");
+    let edge = picture("cork-over-the-edge");
+    assert_eq!(crosses(&edge), 1, "the edge alone");
+    // The outline of a T has two pieces, each with an area and a rim.
+    let coverage = picture("cover-the-mark");
+    let filled = format!("fill=\"{}\"", palette::GOAL);
+    let pieces = coverage.lines().filter(|line| line.starts_with("<polygon"));
+    assert!(pieces.filter(|line| line.contains(&filled)).count() >= 2, "{coverage}");
+    assert!(picture("turn-the-box").contains("\u{00b1}12\u{00b0}"));
+}
+
+#[test]
+fn a_compound_object_is_one_thing() {
+    let bracket = picture("bracket");
+    assert!(!bracket.contains("fixed joint") && !bracket.contains("other object"), "{bracket}");
 }
