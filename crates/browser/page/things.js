@@ -97,7 +97,7 @@ export function words(thing) {
   if (thing.kind === 'reach') return `${thing.name}, ${x.toFixed(3)} metres`;
   const turned = thing.turn && heading ? `, rotated by ${Math.round(heading / degree)} degrees` : '';
   const name = thing.kind === 'goal' ? `goal of ${thing.name}` : `${thing.name}${kinds[thing.kind] && `, ${kinds[thing.kind]}`}`;
-  return `${name}, at x ${x.toFixed(3)}, y ${y.toFixed(3)} metres${turned}`;
+  return `${name}, at x ${fixed(x, 3)}, y ${fixed(y, 3)} metres${turned}`;
 }
 
 /** Returns an unused name. */

@@ -30,10 +30,13 @@ const headed = (names, numeric) => html('tr', {}, ...names.map((name, c) => html
 /** Returns the width of a figure, pixels, so that its text is equally large on all screens. */
 const widthOf = (figure) => Math.max(300, Math.round(figure.clientWidth) || 800);
 
+/** Formats a number with a fixed number of digits, and zero without a sign. */
+const fixed = (value, digits) => value.toFixed(digits).replace(/^-(?=0\.?0*$)/, '');
+
 /** Formats a length given in metres. */
 function millimetres(metres) {
   const value = metres * 1000;
-  return `${value.toFixed(Math.abs(value) < 99.95 ? 1 : 0)} mm`;
+  return `${fixed(value, Math.abs(value) < 99.95 ? 1 : 0)} mm`;
 }
 
-const degrees = (radians) => `${((radians * 180) / Math.PI).toFixed(1)}°`;
+const degrees = (radians) => `${fixed((radians * 180) / Math.PI, 1)}°`;

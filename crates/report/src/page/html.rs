@@ -12,7 +12,7 @@ const STAGE: &str = "<figure class=\"stage\" id=\"stage\">";
 
 /// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64, for the content security policy. A test compares
 /// the hashes, so that a release needs no hash function.
-const SCRIPT_HASH: &str = "FjARdcqlJevZWWkJ9WTcqRTc1kIwftB0eD/DiKXZzZk=";
+const SCRIPT_HASH: &str = "03vJ7N86ygPQ8Z7pFheH+uT0AAqhUW4oj+kgRPZZYAM=";
 const STYLE_HASH: &str = "EZFwHAX62sKBHcEGA7NYgCLbeerq6M2XYbrKH0SFxYg=";
 
 /// SHA-256 of [`SOLID`], and of three.js after decompression.
