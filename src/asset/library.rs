@@ -78,11 +78,11 @@ impl ToolLibrary {
         Err(Fault::of_file(&format!("tool `{name}`"), message, "rename one of the two").into())
     }
 
-    /// Adds the tools of every `.yaml` or `.yml` file of the folder `path`.
+    /// Adds the tools of every `.yaml` or `.yml` file of the folder `path`. They replace tools of
+    /// the same names.
     ///
     /// # Errors
-    /// Returns the errors of [`ToolLibrary::load`], and an error for a tool whose name is already
-    /// in the library.
+    /// Returns the errors of [`ToolLibrary::load`].
     pub fn with_folder(self, path: impl AsRef<Path>) -> Result<Self, Faults> {
         let path = path.as_ref();
         let files = files_in(path, &["yaml", "yml"])?;
@@ -148,13 +148,16 @@ impl ToolLibrary {
                 }
             };
             let name = tool.name.clone();
-            if self.insert(Arc::new(tool)) {
-                files.insert(name, file);
-            } else {
-                let first = files.get(&name).copied().unwrap_or("the library");
+            if let Some(first) = files.get(&name) {
                 let message = format!("its tool `{name}` is already defined in {first}");
                 faults.push(Fault::of_file(file, message, "rename one of the two"));
+                continue;
             }
+            for known in [&mut self.tools, &mut self.blades] {
+                known.retain(|known| known.name != name);
+            }
+            self.insert(Arc::new(tool));
+            files.insert(name, file);
         }
         if faults.is_empty() { Ok(self) } else { Err(Faults(faults)) }
     }

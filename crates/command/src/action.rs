@@ -23,7 +23,7 @@ pub struct LibraryArgs {
     /// Folder of tool files that replace the built-in tools
     #[arg(long, value_name = "DIR")]
     tools: Option<PathBuf>,
-    /// Folder of additional tool files
+    /// Folder of additional tool files; they replace built-in tools of the same names
     #[arg(long, value_name = "DIR")]
     more_tools: Option<PathBuf>,
 }

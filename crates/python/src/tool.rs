@@ -172,12 +172,13 @@ impl PyToolLibrary {
         library(py, self.0.clone().with(tool.0.clone()))
     }
 
-    /// Returns a library that also contains the tools of a folder.
+    /// Returns a library that also contains the tools of a folder, in place of tools of the same
+    /// names.
     ///
     /// Raises
     /// ------
     /// FileError
-    ///     If a file is invalid, or the library already has a tool of a file's name.
+    ///     If a file is invalid, or two files have a tool of the same name.
     fn with_folder(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
         library(py, self.0.clone().with_folder(folder))
     }
