@@ -19,6 +19,7 @@ mod run;
 mod solution;
 mod space;
 mod stage;
+mod units;
 
 pub use html::PageView;
 pub use inferred::recording_page;
