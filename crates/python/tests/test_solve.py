@@ -7,7 +7,7 @@ import json
 import multiprocessing
 import pickle
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import pytest
 
@@ -69,9 +69,11 @@ def test_five_lines_from_a_text_to_a_plan() -> None:
 
 
 def test_efforts_differ_and_unknown_words_are_refused(task: pushplan.Task) -> None:
-    draft = pushplan.solve(task, effort="draft").to_dict()
-    standard = pushplan.solve(task).to_dict()
-    assert draft["statistics"]["rollouts"] < standard["statistics"]["rollouts"]
+    def replays(effort: Literal["standard", "thorough"]) -> int:
+        plan = pushplan.solve(task, effort=effort).to_dict()["plans"][0]
+        return len(plan["verdict"]["evidence"])
+
+    assert replays("standard") < replays("thorough")
     with pytest.raises(ValueError, match='effort: unknown value "hard"; use "draft"'):
         pushplan.solve(task, effort="hard")  # type: ignore[arg-type]
     with pytest.raises(pushplan.ModelError, match="use network, prior, planar"):
