@@ -75,7 +75,7 @@ impl Network {
         model
     }
 
-    /// Adds `head` to the last layer; measured errors are without it.
+    /// Adds `head` to the corrections; measured errors are without it.
     ///
     /// # Panics
     /// Panics if the head has another width, see [`Self::effect_width`].

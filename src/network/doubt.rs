@@ -3,8 +3,8 @@
 //! The spread is learned from final errors. The spread of an object is a floor, a positive number
 //! for each of its frames, and a share of the distance d between the readouts of two engines from
 //! their mean: S = s + sum over t of length_t exp(w x_t + b) + a d. Here x_t is the even half of
-//! the node's propagated state. The fit maximises the likelihood of errors of
-//! whole pushes that are exponentially distributed around S.
+//! the node's propagated state. The fit maximises the likelihood of errors of whole pushes that are
+//! exponentially distributed around S.
 
 use serde::{Deserialize, Serialize};
 

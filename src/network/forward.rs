@@ -164,7 +164,7 @@ impl Forward {
         Self { steps, ..self }
     }
 
-    /// Adds `head` to the last layer; a head that changes nothing leaves every bit.
+    /// Adds `head` to the corrections; a head that changes nothing leaves every bit.
     ///
     /// # Panics
     /// Panics if the head has another width.

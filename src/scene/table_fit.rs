@@ -15,15 +15,13 @@ const ALIKE: f64 = 0.05;
 /// belongs to an object does not. Recordings of one object cannot separate the two.
 pub const OTHER_OBJECTS: f64 = 0.5;
 
-/// The result of fitting recordings of one table: physical parameters, and a change of the
-/// network's last layer.
+/// The result of fitting recordings of one table: physical parameters, and a head of the network.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TableFit {
     /// Checksum of the weights of the changed network.
     pub weights: String,
-    /// Maximum a posteriori change of the network's last layer, [3, 2, h]; zeros without a fit of
-    /// it.
+    /// Maximum a posteriori parameters of the network's head, [3, 2, h]; zeros without one.
     pub head: Vec<f64>,
     /// Posterior covariance of the change.
     pub spread: HeadSpread,

@@ -23,6 +23,17 @@ function placed([x, y, heading], [u, v]) {
   return [x + c * u - s * v, y + s * u + c * v];
 }
 
+/** Returns an object and its parts, each with its pose if the object is at `pose`. */
+function solidsAt(objects, index, pose) {
+  const [x, y, heading] = posed(objects[index].at);
+  const [c, s] = [Math.cos(heading), Math.sin(heading)];
+  return objects.filter((body, k) => k === index || body.whole === index).map((body) => {
+    const [u, v, turned] = posed(body.at);
+    const own = [c * (u - x) + s * (v - y), c * (v - y) - s * (u - x)];
+    return [body, [...placed(pose, own), pose[2] + turned - heading]];
+  });
+}
+
 /** Returns the marks of a goal other than its position and areas; `map` converts a point in metres to pixels. */
 function goalMarks({ bands = [], covers = [], edges = [] }, px, map) {
   const points = (corners) => corners.map(([x, y]) => map([x * LENGTH, y * LENGTH]).join(',')).join(' ');

@@ -148,7 +148,9 @@ const solid = (() => {
     }
     if (goal.heading) {
       at[2] = goal.heading[0] * FINE;
-      scene.add(placed(piece(objects[goal.objects[0]], colour('goal'), colour('goal'), true), at));
+      for (const [body, pose] of solidsAt(objects, goal.objects[0], at)) {
+        scene.add(placed(piece(body, colour('goal'), colour('goal'), true), pose));
+      }
     }
   }
 

@@ -141,8 +141,11 @@
     const own = objects[goal.objects[0]];
     wanted[2] = goal.heading ? goal.heading[0] * FINE : posed(own.at)[2];
     const [x, y] = map(wanted);
-    if (goal.heading || ('disc' in own.shape && !goal.unplaced)) {
-      still.append(outline(own.shape, { transform: at(wanted), class: 'wanted' }));
+    const turned = goal.heading && !(goal.bands || goal.edges);
+    if (turned || (!goal.unplaced && (goal.heading || 'disc' in own.shape))) {
+      for (const [body, pose] of solidsAt(objects, goal.objects[0], wanted)) {
+        still.append(outline(body.shape, { transform: at(pose), class: 'wanted' }));
+      }
     }
     for (const area of goal.areas) {
       still.append(outline(area.shape, { transform: at(posed(area.at)), class: area.leave ? 'leave' : 'goal' }));

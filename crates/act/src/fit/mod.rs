@@ -3,7 +3,7 @@
 //! The parameters are the *spread* of the support and the friction coefficient between pusher and
 //! object. For every cell of a grid over both, an effect model with these values is rolled out and
 //! compared with the recordings. A noise model turns the errors into a posterior. A linear head on
-//! the network's last hidden row can be fitted to the remaining error. This module draws nothing
+//! the network's propagated states can be fitted to the remaining error. This module draws nothing
 //! and reads no files.
 
 mod grid;

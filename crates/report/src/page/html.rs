@@ -12,11 +12,11 @@ const STAGE: &str = "<figure class=\"stage\" id=\"stage\">";
 
 /// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64, for the content security policy. A test compares
 /// the hashes, so that a release needs no hash function.
-const SCRIPT_HASH: &str = "03vJ7N86ygPQ8Z7pFheH+uT0AAqhUW4oj+kgRPZZYAM=";
+const SCRIPT_HASH: &str = "BSGfSZ2o2f7Rp6lY734MCUtzrzOWR7PKFc0mgdZm8VM=";
 const STYLE_HASH: &str = "EZFwHAX62sKBHcEGA7NYgCLbeerq6M2XYbrKH0SFxYg=";
 
 /// SHA-256 of [`SOLID`], and of three.js after decompression.
-const SOLID_HASH: &str = "yw2mEbNnWOzMihIU0xb6G27QZui+oaLBDQw4g4So060=";
+const SOLID_HASH: &str = "T0PQ6aAYl8+2jUMSR5AdC8m+sf8wHwYICKVi/DseP/I=";
 const THREE_HASH: &str = "1DAXuURetgEpYc3wVeanFNbtMNUCQJJKMDFxE8xxJxc=";
 
 /// Views of the table on a page.

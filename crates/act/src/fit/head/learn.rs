@@ -108,7 +108,7 @@ impl Basis {
     }
 }
 
-/// Fits the last layer of `network` to `trials`, in addition to the parameters in `basis`.
+/// Fits a head of `network` to `trials`, in addition to the parameters in `basis`.
 ///
 /// The result contains the change, its spread and the remaining noise. A change is shrunk by the
 /// uncertainty of its gain on held-out pushes. With too few pushes, or if

@@ -1,6 +1,6 @@
-//! Bayesian linear head on the hidden rows of a frozen network, from recorded pushes.
+//! Bayesian linear head on the propagated states of a frozen network, from recorded pushes.
 //!
-//! The change θ of the last layer has the prior N(0, s² I). The final poses of a recorded push are
+//! The parameters θ of the head have the prior N(0, s² I). The final poses of a recorded push are
 //! y = J θ + noise, with J from [`Sensitivity`] and Student's noise. This regression is solved by
 //! iterative reweighting (Lange, Little and Taylor 1989, doi:10.2307/2290063).
 //!

@@ -1,6 +1,6 @@
-//! Sensitivity of the end of a rollout to a change of the network's last layer.
+//! Sensitivity of the end of a rollout to the head of a network.
 //!
-//! Corrections are not fed back into contacts, and a head acts linearly. With the hidden row z and
+//! Corrections are not fed back into contacts, and a head acts linearly. With the row z and
 //! the length l of the object's motion in each frame, the final poses e change exactly by
 //!
 //! ```text
@@ -19,7 +19,7 @@ use pushplan::{
     task::Job,
 };
 
-/// Rollout with the sensitivity of its end to a change of the last layer.
+/// Rollout with the sensitivity of its end to a head.
 #[derive(Clone, Debug)]
 pub struct Sensitivity {
     /// Corrected rollout, frame by frame.
@@ -30,7 +30,7 @@ pub struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// Computes the sensitivity of the end of `job` to the last layer of `network`.
+    /// Computes the sensitivity of the end of `job` to a head of `network`.
     pub fn of(network: &Network, scene: &Scene, job: &Job) -> Self {
         let job = without_guesses(job);
         let half = network.effect_width();
@@ -45,16 +45,16 @@ impl Sensitivity {
         let (even, odd) = buffers.rows().split_at(buffers.rows().len() / 2);
         for read in readings.iter().flat_map(|reading| &reading.reads) {
             let from = read.node as usize * half;
-            let hidden = even[from..from + half].iter().chain(&odd[from..from + half]);
-            let hidden: Vec<f64> = hidden.map(|value| f64::from(*value)).collect();
+            let states = even[from..from + half].iter().chain(&odd[from..from + half]);
+            let states: Vec<f64> = states.map(|value| f64::from(*value)).collect();
             for output in 0..HEAD_OUTPUTS {
                 let mut unit = [0.0; HEAD_OUTPUTS];
                 unit[output] = 1.0;
                 let first = 3 * read.object as usize;
                 for (row, change) in rows[first..first + 3].iter_mut().zip(read.change(unit)) {
                     let part = &mut row[output * 2 * half..(output + 1) * 2 * half];
-                    for (value, hidden) in part.iter_mut().zip(&hidden) {
-                        *value += change * hidden;
+                    for (value, state) in part.iter_mut().zip(&states) {
+                        *value += change * state;
                     }
                 }
             }
