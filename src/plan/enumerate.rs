@@ -254,13 +254,9 @@ fn topples(workspace: &Workspace, push: &CandidatePush) -> bool {
     !joined && !one.may_fall && table * pushes.lift > edge * held
 }
 
-/// Truncates a list to the budget, keeps the most promising pushes in their order, and returns the
-/// number dropped. Ties are broken by a fixed scatter, so that no tool is favoured by its place in
-/// the list.
-pub(super) fn keep_promising(list: &mut Vec<Extension>, budget: usize) -> usize {
-    if list.len() <= budget {
-        return 0;
-    }
+/// Returns the indices of the most promising pushes, at most `budget`, most promising first. Ties
+/// are broken by a fixed scatter, so that no tool is favoured by its place in the list.
+pub(super) fn by_promise(list: &[Extension], budget: usize) -> Vec<usize> {
     /// Golden section, whose multiples modulo 1 are spread evenly over [0, 1).
     const SCATTER: f64 = 0.618_033_988_749_894_9;
     let mut order: Vec<usize> = (0..list.len()).collect();
@@ -270,8 +266,5 @@ pub(super) fn keep_promising(list: &mut Vec<Extension>, budget: usize) -> usize 
         promise.then(scatter(a).total_cmp(&scatter(b))).then(a.cmp(&b))
     });
     order.truncate(budget);
-    order.sort_unstable();
-    let dropped = list.len() - budget;
-    *list = order.into_iter().map(|k| list[k].clone()).collect();
-    dropped
+    order
 }

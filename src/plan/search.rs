@@ -21,7 +21,7 @@ use crate::{
 
 use super::beam::{Stop, choose};
 use super::cost_to_go::CostToGo;
-use super::enumerate::{Extension, Grips, Resolution, extensions, keep_promising};
+use super::enumerate::{Extension, Grips, Resolution, by_promise, extensions};
 use super::node::Node;
 use super::reached::Reached;
 use super::rollouts::{single_push, stops};
@@ -30,11 +30,19 @@ use super::scored::Scores;
 use super::statistics::SearchStatistics;
 use super::uncertainty::{Uncertainty, room};
 use super::workspace::MIN_LENGTH;
-use super::{Candidate, Rollouts, ScoredPush, SearchResult, Workspace};
+use super::{Candidate, Rollouts, ScoredPush, SearchResult, Workspace, kinds};
 
 /// Number of rollouts per batch: enough for every thread, and few enough that their recorded frames
 /// stay in the cache.
 const BATCH: usize = 256;
+
+/// Share of a level's pushes in a batch, and least number. A search ends when [`QUIET`] consecutive
+/// batches have not changed the best kinds.
+const GATE: (f64, usize) = (0.125, 16);
+
+/// Number of batches without a change of the best kinds that end a level. In order of promise, the
+/// eight best kinds are found after 14 % of the rollouts in the median.
+const QUIET: usize = 2;
 
 /// Number of frames between the stops offered to the beam, in addition to the best and last stop.
 const BEAM_STRIDE: usize = 5;
@@ -52,6 +60,8 @@ pub struct SearchSettings {
     pub rollouts: usize,
     /// Number of scored candidates kept.
     pub kept: usize,
+    /// Number of best kinds of candidates that must be certain before a level ends.
+    pub kinds: usize,
     /// Occasional error of the effect model, metres. Later pushes keep this additional clearance.
     pub model_error: f64,
 }
@@ -68,6 +78,8 @@ pub struct Search<'a> {
     /// Last pushes and their possible stops, from which the next level starts. They become nodes on
     /// demand, because rolling them out is wasted if shorter plans work.
     ends: (Vec<Extension>, Vec<Stop>),
+    /// Indices of the last pushes that are rolled out only if longer sequences are needed.
+    waiting: Vec<usize>,
     spread: Uncertainty,
     depth: usize,
     statistics: SearchStatistics,
@@ -121,6 +133,7 @@ impl<'a> Search<'a> {
             grips,
             nodes: vec![start],
             ends: Default::default(),
+            waiting: Vec::new(),
             spread,
             depth: 0,
             statistics: SearchStatistics::default(),
@@ -161,7 +174,7 @@ impl<'a> Search<'a> {
     /// Returns `true` if sequences with one more push are allowed, and a state remains from which
     /// to continue.
     pub fn can_deepen(&self) -> bool {
-        let any = self.depth == 0 || !self.ends.1.is_empty();
+        let any = self.depth == 0 || !self.ends.1.is_empty() || !self.waiting.is_empty();
         self.depth < self.workspace.task.pushes.max_count && any
     }
 
@@ -173,10 +186,16 @@ impl<'a> Search<'a> {
         rollouts: &mut Rollouts,
         progress: &dyn Progress,
     ) -> Vec<SearchResult> {
-        let before = rollouts.used();
         if self.depth > 0 {
-            let (list, offers) = std::mem::take(&mut self.ends);
+            let (list, mut offers) = std::mem::take(&mut self.ends);
+            let waiting = std::mem::take(&mut self.waiting);
+            for batch in waiting.chunks(BATCH).take_while(|_| !progress.cancelled()) {
+                self.roll(rollouts, &list, batch, &mut offers);
+            }
+            offers.sort_by_key(|stop| stop.extension);
+            let before = rollouts.used();
             self.nodes = self.continue_from(rollouts, &list, offers);
+            self.statistics.rollouts += rollouts.used() - before;
         }
         self.scores.deepen();
         let mut list = extensions(
@@ -192,42 +211,77 @@ impl<'a> Search<'a> {
         if self.settings.fine_offsets && self.depth == 0 && !list.iter().any(|one| one.fine) {
             list.clear();
         }
-        self.statistics.beyond_budget += keep_promising(&mut list, self.settings.rollouts);
-        let mut found = Vec::with_capacity(list.len());
+        let order = by_promise(&list, self.settings.rollouts);
+        self.statistics.beyond_budget += list.len() - order.len();
+        let mut found: Vec<(usize, SearchResult)> = Vec::new();
         let mut offers = Vec::new();
-        for (batch, chunk) in list.chunks(BATCH).enumerate() {
-            if progress.cancelled() {
+        let (mut best, mut quiet, mut done) = (Vec::new(), 0, 0);
+        let size = match self.workspace.is_placed() {
+            true => ((GATE.0 * order.len() as f64) as usize).clamp(GATE.1, BATCH),
+            // The tree of chained pushes is kept whole.
+            false => BATCH,
+        };
+        for batch in order.chunks(size) {
+            if progress.cancelled() || (quiet >= QUIET && self.workspace.is_placed()) {
                 break;
             }
-            progress.update((batch * BATCH) as u64, list.len() as u64);
-            let jobs: Vec<_> = chunk.iter().map(|extension| self.job(extension)).collect();
-            let trajectories = rollouts.run(&jobs, Record::Frames);
-            let rated: Vec<_> = chunk
-                .par_iter()
-                .zip(&trajectories)
-                .map(|(extension, trajectory)| self.rate(extension, trajectory))
-                .collect();
-            for (k, (best, stops)) in rated.into_iter().enumerate() {
-                let (extension, index) = (&chunk[k], batch * BATCH + k);
-                if let Some((score, length)) = best {
-                    self.statistics.improve(self.statistics.rollouts + index + 1, score);
-                    self.scores.improve(extension.scored, score);
-                    let candidate = self.candidate(extension, length);
-                    // The search without changes already finds candidates with one grip.
-                    if self.grips.changes.is_none() || !candidate.has_one_grip() {
-                        found.push(SearchResult { candidate, score });
-                    }
-                }
-                offers.extend(stops.into_iter().map(|stop| stop.of(index)));
-            }
+            progress.update(done as u64, order.len() as u64);
+            found.extend(self.roll(rollouts, &list, batch, &mut offers));
+            done += batch.len();
+            // Equal scores are in the order of enumeration.
+            found.sort_by(|a, b| a.1.score.total_cmp(&b.1.score).then(a.0.cmp(&b.0)));
+            let now = self.best_kinds(&found);
+            let same = now.len() == self.settings.kinds && now == best;
+            quiet = if same { quiet + 1 } else { 0 };
+            best = now;
         }
-        progress.update(list.len() as u64, list.len() as u64);
+        progress.update(order.len() as u64, order.len() as u64);
         self.depth += 1;
-        self.ends = if progress.cancelled() { Default::default() } else { (list, offers) };
-        self.statistics.rollouts += rollouts.used() - before;
-        // The sort is stable, so that equal scores keep the order of enumeration.
-        found.sort_by(|a, b| a.score.total_cmp(&b.score));
+        offers.sort_by_key(|stop| stop.extension);
+        let stopped = progress.cancelled();
+        self.waiting = if stopped { Vec::new() } else { order[done..].to_vec() };
+        self.ends = if stopped { Default::default() } else { (list, offers) };
         found.truncate(self.settings.kept);
+        found.into_iter().map(|(_, one)| one).collect()
+    }
+
+    /// Returns the indices of the best pushes of different kinds.
+    fn best_kinds(&self, found: &[(usize, SearchResult)]) -> Vec<usize> {
+        let results: Vec<SearchResult> = found.iter().map(|(_, one)| one.clone()).collect();
+        kinds(&results, self.settings.kinds).into_iter().map(|k| found[k].0).collect()
+    }
+
+    /// Rolls out the pushes `batch` of `list`. Returns the resulting candidates with their indices,
+    /// and adds the stops worth continuing from to `offers`.
+    fn roll(
+        &mut self,
+        rollouts: &mut Rollouts,
+        list: &[Extension],
+        batch: &[usize],
+        offers: &mut Vec<Stop>,
+    ) -> Vec<(usize, SearchResult)> {
+        let before = rollouts.used();
+        let jobs: Vec<_> = batch.iter().map(|&k| self.job(&list[k])).collect();
+        let trajectories = rollouts.run(&jobs, Record::Frames);
+        let rated: Vec<_> = batch
+            .par_iter()
+            .zip(&trajectories)
+            .map(|(&k, trajectory)| self.rate(&list[k], trajectory))
+            .collect();
+        let mut found = Vec::new();
+        for (position, (&k, (best, stops))) in batch.iter().zip(rated).enumerate() {
+            if let Some((score, length)) = best {
+                self.statistics.improve(self.statistics.rollouts + position + 1, score);
+                self.scores.improve(list[k].scored, score);
+                let candidate = self.candidate(&list[k], length);
+                // The search without changes already finds candidates with one grip.
+                if self.grips.changes.is_none() || !candidate.has_one_grip() {
+                    found.push((k, SearchResult { candidate, score }));
+                }
+            }
+            offers.extend(stops.into_iter().map(|stop| stop.of(k)));
+        }
+        self.statistics.rollouts += rollouts.used() - before;
         found
     }
 
@@ -267,7 +321,8 @@ impl<'a> Search<'a> {
             // Moving an obstruction is not yet a plan.
             false => (f64::INFINITY, length),
         };
-        let deeper = self.depth + 1 < task.pushes.max_count;
+        let before = self.nodes[extension.node].candidate.as_ref();
+        let deeper = before.map_or(0, |one| one.pushes.len()) + 1 < task.pushes.max_count;
         let placed = task.pushes.form == PushForm::Placed;
         let stroke = &self.motion(extension).strokes[0];
         let mut offers: Vec<Stop> = Vec::new();

@@ -137,6 +137,7 @@ impl Settings {
             rollouts: self.search_rollouts,
             // Variants of one kind have close ranks; this number suffices to get past them.
             kept: self.refined.saturating_mul(64),
+            kinds: self.refined,
             model_error,
         }
     }

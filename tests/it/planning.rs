@@ -23,6 +23,7 @@ const SETTINGS: SearchSettings = SearchSettings {
     beam: 16,
     rollouts: 600,
     kept: 32,
+    kinds: 8,
     model_error: 0.0,
 };
 
@@ -258,6 +259,7 @@ fn a_search_finds_the_same_for_any_number_of_threads_and_within_its_budget() {
         beam: 6,
         rollouts: 40,
         kept: 10,
+        kinds: 8,
         model_error: 0.0,
     };
     let run = |threads: usize| {

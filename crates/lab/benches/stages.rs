@@ -179,6 +179,7 @@ fn planning(criterion: &mut Criterion) {
         beam: 1,
         rollouts: 500,
         kept: 8,
+        kinds: 8,
         model_error: 0.0,
     };
     let search = || {

@@ -5,13 +5,13 @@
 
 use crate::plan::{Search, is_behind};
 use crate::solve::SolveError;
-use crate::solve::attempts::Attempt;
 use crate::solve::blackboard::Blackboard;
+use crate::solve::grade::Class;
 use crate::solve::retry::replayed_error;
 use crate::solve::solving::{Batch, Strategy};
 
-/// Maximum predicted error of a plan near the goals, in units of the tolerances.
-const NEAR: f64 = 2.0;
+/// Maximum error of the replays of a plan near the goals, in units of the tolerances.
+const NEAR: f64 = 1.25;
 
 /// Returns the candidates of `pushes` pushes of the search with all budgets.
 fn all_budgets(board: &mut Blackboard, pushes: usize) -> Option<Batch> {
@@ -38,33 +38,29 @@ impl<'a> Strategy<'a> for SameLength {
     fn next(&mut self, board: &mut Blackboard<'a>) -> Result<Option<Batch>, SolveError> {
         let Some(first) = board.all.first else { return Ok(None) };
         board.query.settings = first;
-        let depth = |search: &Option<Search>| search.as_ref().map_or(0, Search::depth);
-        let pushes = depth(&board.search);
-        let wanted = pushes > depth(&board.all.search)
+        let Some(usual) = &board.search else { return Ok(None) };
+        // One more push is cheaper to find, unless a plan of this length passes.
+        let fails = board.attempts.best_class() < Class::Forced;
+        let longer = fails && usual.can_deepen() && usual.depth() < super::push::LONGEST;
+        let pushes = usual.depth().saturating_sub(usize::from(longer));
+        let wanted = pushes > board.all.search.as_ref().map_or(0, Search::depth)
             && is_near(board, pushes)
             && board.wants_longer(pushes - 1);
         Ok(if wanted { all_budgets(board, pushes) } else { None })
     }
 }
 
-/// Returns `true` if plans of `pushes` pushes come near the goals: in their predictions, and in the
-/// replays if there are any.
+/// Returns `true` if the replays of a plan of `pushes` pushes end near the goals.
 fn is_near(board: &Blackboard, pushes: usize) -> bool {
     let (task, start) = (board.query.task, &board.query.situation.start);
     // A push rarely meets two goals.
     if task.goals.iter().filter(|goal| !goal.reached(start)).count() > pushes {
         return false;
     }
-    let near = |one: &&Attempt| {
-        one.plan.steps.len() == pushes && !is_behind(one.score) && one.score <= NEAR
-    };
-    let mut near = board.attempts.list.iter().filter(near).peekable();
-    let any = near.peek().is_some();
-    let mut replayed = near.filter(|one| one.verdict.is_some()).peekable();
-    match replayed.peek() {
-        Some(_) => replayed.any(|one| replayed_error(task, one) <= NEAR),
-        None => any,
-    }
+    board.attempts.list.iter().any(|one| {
+        let tried = one.plan.steps.len() == pushes && one.verdict.is_some();
+        tried && !is_behind(one.score) && replayed_error(task, one) <= NEAR
+    })
 }
 
 /// Strategy that continues with all budgets if no plan of the first attempt works.

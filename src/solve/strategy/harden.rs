@@ -11,6 +11,9 @@ use crate::solve::solving::{Batch, Strategy};
 /// Seed bit that separates the samples of hardening from the samples of refinement.
 const HARDENING: u64 = 1 << 14;
 
+/// Maximum number of rollouts for each one of the search.
+const ROLLOUTS: usize = 3;
+
 /// Strategy that varies the results of the last search once.
 pub(super) struct Harden;
 
@@ -30,7 +33,7 @@ impl<'a> Strategy<'a> for Harden {
         let began = Instant::now();
         let settings = HardenSettings {
             kinds: 2 * query.settings.refined,
-            rollouts: query.refine_rollouts(),
+            rollouts: query.refine_rollouts().min(ROLLOUTS * query.settings.search_rollouts),
             seed: query.refine_settings(pushes).seed ^ HARDENING,
         };
         let rollouts = &mut board.refiner.rollouts;

@@ -6,7 +6,7 @@ use crate::solve::solving::{Batch, Strategy};
 
 /// Maximum number of pushes of searched plans, because the cost grows with every push. Longer plans
 /// are only made along legs of transport.
-const LONGEST: usize = 8;
+pub(super) const LONGEST: usize = 8;
 
 /// Strategy that deepens the search on the blackboard.
 pub(super) struct Push;
