@@ -176,7 +176,9 @@ impl World for PlanarWorld {
         }
         self.world.step_with_events(&self.seams, &());
         for tracked in &mut self.bodies {
-            let angle = self.world.bodies[tracked.handle].rotation().angle();
+            let body = &self.world.bodies[tracked.handle];
+            let angle =
+                if body.is_enabled() { body.rotation().angle() } else { tracked.last_angle };
             tracked.turned += wrap_angle(angle - tracked.last_angle);
             tracked.last_angle = angle;
         }

@@ -155,7 +155,8 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
         self.asleep.wake_near(&mut self.world);
         self.world.step_with_events(&self.seams, &());
         for tracked in &mut self.bodies {
-            let angle = yaw(self.world.bodies[tracked.handle].rotation());
+            let body = &self.world.bodies[tracked.handle];
+            let angle = if body.is_enabled() { yaw(body.rotation()) } else { tracked.last_angle };
             tracked.turned += wrap_angle(angle - tracked.last_angle);
             tracked.last_angle = angle;
         }
@@ -173,8 +174,7 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             // A leaning body moves its objects' centres aside.
             let lean = *body.rotation() * tracked.first_rotation.inverse();
             let leaned = lean * (RapierVector::Z * *rise);
-            let moved = Vector::new(moved.x + leaned.x, moved.y + leaned.y);
-            let moved = self.frame.vector(moved);
+            let moved = self.frame.vector(Vector::new(moved.x + leaned.x, moved.y + leaned.y));
             state.poses.push(member.pose(moved, tracked.turned));
             let (linear, angular) = (body.linvel(), body.angvel());
             let linear = self.frame.vector(Vector::new(linear.x, linear.y));
