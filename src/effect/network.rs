@@ -13,7 +13,9 @@ use crate::{
     task::Job,
 };
 
-use super::{EffectModel, ModelError, Quantiles, Trust, measured::measured, trust::outside};
+use super::{
+    EffectModel, EffectModels, ModelError, Quantiles, Trust, measured::measured, trust::outside,
+};
 
 /// Number of jobs that share a network batch: enough rows to keep the matrix products busy, few
 /// enough that the cores share a search evenly. In solves in which the network computes every
@@ -41,7 +43,16 @@ struct Strange {
 }
 
 impl Network {
+    /// Returns the model with the shipped weights.
+    ///
+    /// # Errors
+    /// Returns [`ModelError::Shipped`] if the library was built with a damaged weights file.
+    pub fn shipped() -> Result<Self, ModelError> {
+        Ok(Self::new(EffectModels::weights()?))
+    }
+
     /// Creates a model with these weights, which [`EffectModel::spec`] reports as the shipped ones.
+    #[doc(hidden)]
     pub fn new(weights: PredictorWeights) -> Self {
         let errors = weights.card.errors.as_ref();
         Self {
@@ -57,6 +68,7 @@ impl Network {
     /// Creates a model with weights from a file. `steps` replaces the number of propagation steps
     /// of the training, and `stride` frames are predicted as one. Measured errors apply to the
     /// weights as trained, frame by frame.
+    #[doc(hidden)]
     pub fn with(
         weights: PredictorWeights,
         file: Option<String>,
@@ -79,6 +91,7 @@ impl Network {
     ///
     /// # Panics
     /// Panics if the head has another width, see [`Self::effect_width`].
+    #[doc(hidden)]
     pub fn adapted(mut self, head: &Head) -> Self {
         self.forward = self.forward.with_head(head);
         self
@@ -109,6 +122,7 @@ impl Network {
     }
 
     /// Returns the weights.
+    #[doc(hidden)]
     pub fn weights(&self) -> &PredictorWeights {
         &self.weights
     }
@@ -139,11 +153,13 @@ impl Network {
     }
 
     /// Returns the forward pass.
+    #[doc(hidden)]
     pub fn forward(&self) -> &Forward {
         &self.forward
     }
 
     /// Returns the settings of the rollouts.
+    #[doc(hidden)]
     pub fn settings(&self) -> RollSettings {
         self.settings
     }
