@@ -169,9 +169,9 @@ pub mod shapes {
 /// Parts of scenes: supports, surfaces, regions, joints, the robot's hand and its arm.
 pub mod scenes {
     pub use crate::scene::{
-        ArmFault, Fixed, Hand, JointPoint, JointTrajectory, LeverScene, PairFriction, Piece, Plate,
-        Quantity, Region, RigidGroups, Slab, Span, Support, Surface, TableTop, ToolError, Velocity,
-        Weight, Whole, WorldJoint,
+        ArmFault, Carried, Fixed, Hand, JointPoint, JointTrajectory, LeverScene, Mover,
+        PairFriction, Piece, Plate, Quantity, Region, RigidGroups, Slab, Span, Support, Surface,
+        TableTop, ToolError, Velocity, Weight, Whole, WorldJoint,
     };
     pub use crate::sim::Arm;
 }
@@ -200,7 +200,7 @@ pub mod models {
         EffectModels, Fallback, ModelError, Network, OutOfRange, Prior, Quantiles, Simulated,
         Still, Trust,
     };
-    pub use crate::network::WeightsError;
+    pub use crate::network::{ParameterError, WeightsError};
     pub use crate::scene::{
         Assumptions, Engine, FittedObject, HeadSpread, JointBelief, ModelKind, ModelPart, Narrowed,
         Rate, SpecError, Stride,
@@ -211,7 +211,8 @@ pub mod models {
 pub mod planning {
     pub use crate::plan::lever::LeverSearchStatistics;
     pub use crate::plan::{
-        Infeasible, RefineStatistics, ScoredPush, SearchSettings, SearchStatistics, Start,
+        Infeasible, QpProblem, QpStatus, RefineStatistics, ScoredPush, SearchSettings,
+        SearchStatistics, Start,
     };
     pub use crate::solve::{
         ActionError, Approach, Cause, LeverActionError, LeverSettings, LeverStatistics,
