@@ -45,7 +45,7 @@ fn begun(task: &Task, truth: &Truth) -> Trace {
 
 fn run(trace: &mut Trace, world: &mut dyn World) -> Result<(), ActError> {
     let (planner, library) = (planner(), library());
-    Runner::new(&planner, &library).run(trace, world, &mut |_| Ok(()), &NoProgress)
+    Runner::new(&planner, &library).run_with(trace, world, &mut |_| Ok(()), &NoProgress)
 }
 
 pub fn drawn(task: &Task, seed: u64) -> (Trace, SimulatedWorld) {

@@ -96,7 +96,7 @@ fn runs_fits_beliefs_and_errors_satisfy_their_schemas() {
     satisfies("belief", &one);
     let note = one["note"].as_str().expect("a reason");
     assert!(note.contains("the recording has a single object"), "{note}");
-    let line = "predict --example jointed-pair --tool stick --push left:90 --alone --json \
+    let line = "predict --example jointed-pair --tool stick --push left:0 --alone --json \
                 --trajectories --out";
     document(&format!("{line} {out}"), &[0]);
     let trajectory = std::fs::read_dir(folder.path())

@@ -2,7 +2,7 @@
 
 use pushplan::asset::ToolLibrary;
 use pushplan::solve::{PlanStatus, Solution};
-use pushplan::{EffectModel, Job, Obstacle, Pose, Push, Simulated, Simulator, ToolMotion, Vector};
+use pushplan::{EffectModel, Job, Obstacle, Push, Simulated, Simulator, ToolMotion, Vector};
 use pushplan::{
     outcome::{Record, Warning},
     scene::{Engine, Rate, Situation, Span, State},

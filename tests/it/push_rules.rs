@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pushplan::ToolLibrary;
-use pushplan::geometry::{Pose, Vector};
+use pushplan::geometry::Vector;
 use pushplan::outcome::{LeverFault, PushFault, Warning};
 use pushplan::scene::{Obstacle, Scene, Situation, Tool};
 use pushplan::task::{LeverUp, Plan, Push, PushForm, PushStep, Step, Task};

@@ -136,7 +136,10 @@ pub(super) fn plan() -> Json {
     of_plan_file("plan")
 }
 
-/// Returns the schema of the files that a command has written.
+/// Adds the files that a command has written, unless the document has its own list of files.
 pub(super) fn files(shape: Shape) -> Shape {
-    shape.maybe("files", "Paths of the written files.", list(text()))
+    match shape.properties.contains_key("files") {
+        true => shape,
+        false => shape.maybe("files", "Paths of the written files.", list(text())),
+    }
 }
