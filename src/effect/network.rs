@@ -13,9 +13,7 @@ use crate::{
     task::Job,
 };
 
-use super::{
-    EffectModel, EffectModels, ModelError, Quantiles, Trust, measured::measured, trust::outside,
-};
+use super::{EffectModel, ModelError, Quantiles, Trust, measured::measured, trust::outside};
 
 /// Number of jobs that share a network batch: enough rows to keep the matrix products busy, few
 /// enough that the cores share a search evenly. In solves in which the network computes every
@@ -48,7 +46,8 @@ impl Network {
     /// # Errors
     /// Returns [`ModelError::Shipped`] if the library was built with a damaged weights file.
     pub fn shipped() -> Result<Self, ModelError> {
-        Ok(Self::new(EffectModels::weights()?))
+        let weights = PredictorWeights::from_bytes(pushplan_models::BRDPN);
+        weights.map(Self::new).map_err(ModelError::Shipped)
     }
 
     /// Creates a model with these weights, which [`EffectModel::spec`] reports as the shipped ones.

@@ -121,9 +121,9 @@ impl Planner {
         solve_pushes(Query { planner: self, task, situation, tools, progress: &until, settings })
     }
 
-    /// Returns warnings that a solution of a pushing task will carry with every allowed tool, before
-    /// any search: values outside the model's range, and guessed ones. Returns none for tasks with
-    /// lever-ups.
+    /// Returns warnings that a solution of a pushing task will carry with every allowed tool,
+    /// before any search: values outside the model's range, and guessed ones. Returns none for
+    /// tasks with lever-ups.
     ///
     /// # Errors
     /// Returns [`SolveError`] for invalid input only.

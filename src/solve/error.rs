@@ -21,7 +21,7 @@ pub enum SolveError {
     BadTask {
         /// Name of the task.
         task: String,
-        /// All faults, at least one.
+        /// Faults of the task, at least one.
         faults: Vec<TaskFault>,
     },
     /// The effect model is not reliable for this task, and its policy refuses such tasks.

@@ -103,7 +103,8 @@ impl RankedPlan {
     /// Returns the file of this plan for `task`, with its prediction and verdict.
     ///
     /// ```no_run
-    /// # fn saved(task: &pushplan::Task, best: &pushplan::RankedPlan) -> Result<(), pushplan::Error> {
+    /// # use pushplan::{Error, RankedPlan, Task};
+    /// # fn saved(task: &Task, best: &RankedPlan) -> Result<(), Error> {
     /// best.to_file(task).write("my-task.plan.json")?;
     /// # Ok(())
     /// # }

@@ -1,4 +1,4 @@
-//! The documents that commands print with `--json` satisfy the schemas that `check --schema` prints.
+//! Documents that commands print with `--json` satisfy the schemas that `check --schema` prints.
 
 mod validator;
 

@@ -36,8 +36,8 @@ const Z: Key = Key::optional(
     "z",
     HEIGHT,
     "Height of the underside above the table, metres; default `clearance`, or 0 without one. An \
-     object that lies higher than its clearance needs obstacles below it. Only tasks with lever-ups \
-     may state it; in tasks of pushes only, objects stand on the table.",
+     object that lies higher than its clearance needs obstacles below it. Only tasks with \
+     lever-ups may state it; in tasks of pushes only, objects stand on the table.",
 );
 
 const HEIGHT: Value = Value::Number(Range {

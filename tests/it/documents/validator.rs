@@ -1,5 +1,5 @@
-//! Validator of the part of JSON Schema that our schemas use. An unknown keyword is a fault, so that
-//! no rule is left unchecked. Patterns are left to the tests of the schemas of files.
+//! Validator of the part of JSON Schema that our schemas use. An unknown keyword is a fault, so
+//! that no rule is left unchecked. Patterns are left to the tests of the schemas of files.
 
 use serde_json::Value as Json;
 

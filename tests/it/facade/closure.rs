@@ -232,7 +232,7 @@ fn examples_and_the_python_package_use_public_names_only() {
     }
 }
 
-/// Moves items to `all`, with those of inner modules except tests.
+/// Moves items to `all`, with the items of inner modules except tests.
 fn flatten(items: Vec<Item>, all: &mut Vec<Item>) {
     for item in items {
         match item {

@@ -103,7 +103,8 @@ pub(super) fn map(of: impl Into<Json>) -> Json {
 
 /// Returns the schema of a value that has a word, or an object with the word as its only key.
 pub(super) fn variant() -> Json {
-    json!({"anyOf": [{"type": "string"}, {"type": "object", "minProperties": 1, "maxProperties": 1}]})
+    let object = json!({"type": "object", "minProperties": 1, "maxProperties": 1});
+    json!({"anyOf": [{"type": "string"}, object]})
 }
 
 /// Returns the schema of warnings.
