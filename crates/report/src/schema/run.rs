@@ -1,7 +1,5 @@
 //! Schema of a run of the closed loop.
 
-use serde_json::Value as Json;
-
 use super::shape::{
     Shape, count, flag, list, nullable, number, row, share, state, text, unsigned, variant, words,
 };
@@ -55,6 +53,6 @@ fn numbers() -> Shape {
     let shape = of_objects(Shape::new(), "masses", "Mass in kg");
     let shape = of_objects(shape, "frictions", "Friction value");
     let about = "Friction value of the table: mean and standard deviation.";
-    let shape = shape.key("table_friction", about, Json::from(pair()));
+    let shape = shape.key("table_friction", about, pair());
     of_objects(shape, "spreads", "Support radius relative to its corners' distance")
 }
