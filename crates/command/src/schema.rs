@@ -9,8 +9,11 @@ use pushplan::asset::{
 };
 use pushplan_report::DocumentKind;
 
+/// Word of a kind of file, and its schema.
+type FileKind = (&'static str, fn() -> Json);
+
 /// Kinds of files with their schemas.
-const FILES: [(&str, fn() -> Json); 6] = [
+const FILES: [FileKind; 6] = [
     ("tool", tool_schema),
     ("task", task_schema),
     ("recording", recording_schema),
