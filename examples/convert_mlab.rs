@@ -18,9 +18,9 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use pushplan::geometry::{ConvexPolygon, Pose, Shape, Vector};
-use pushplan::recording::{RecordedFrame, Recording};
-use pushplan::scene::{Object, Part, Scene, Support, Surface, Tool, Velocity};
+use pushplan::recordings::{RecordedFrame, Recording};
+use pushplan::scenes::{Support, Surface, Velocity};
+use pushplan::{ConvexPolygon, Object, Part, Pose, Scene, Shape, Tool, Vector};
 use serde::Deserialize;
 
 /// Radius of the cylinder that represents the fingertip, metres.

@@ -5,8 +5,8 @@
 
 use std::sync::Arc;
 
-use pushplan::effect::Prior;
-use pushplan::outcome::Frame;
+use pushplan::models::Prior;
+use pushplan::outcomes::Frame;
 use pushplan::{
     EffectModel, Effort, Job, ModelSpec, Physics, PlanStatus, Planner, Record, Scene, Task,
     ToolLibrary, Trajectory, Trust,

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use pushplan::asset::PlanFile;
+use pushplan::files::PlanFile;
 use pushplan::{
     Effort, Goal, Object, Obstacle, Part, PlanStatus, Planner, Pose, Robot, Scene, Task, Tool,
     ToolLibrary,
@@ -12,7 +12,7 @@ use pushplan::{
 fn main() -> Result<(), pushplan::Error> {
     // Units: metres, kilograms, radians.
     let can = Object::cylinder("can", 0.05, 0.10).mass(0.4).friction(0.4).at(0.62, 0.10, 0.0);
-    let wall = Obstacle::new("wall", [0.03, 0.10, 0.12], Pose::new(0.36, 0.20, 0.0));
+    let wall = Obstacle::cuboid("wall", [0.03, 0.10, 0.12]).at(0.36, 0.20, 0.0);
     let scene = Scene::new([can]).with_obstacle(wall);
     let goal = Goal::new(0, [0.45, 0.10], 0.02);
     let task = Task::new("can-behind-wall", scene, Robot::reaching(0.1, 0.7), goal);
@@ -31,17 +31,10 @@ fn main() -> Result<(), pushplan::Error> {
 
     // `pushplan verify` and `pushplan export` read this file.
     if let Some(folder) = std::env::args_os().nth(1).map(PathBuf::from) {
-        let file = PlanFile {
-            joints: best.joints.clone(),
-            task,
-            tools: best.tools.clone(),
-            plan: best.plan.clone(),
-            model: Some(best.predicted.by.clone()),
-            fit: None,
-            predicted: Some(best.outcome.clone()),
-            verdict: best.verdict.clone(),
-        };
-        file.write(folder.join("can-behind-wall.plan.json"))?;
+        let path = folder.join("can-behind-wall.plan.json");
+        best.to_file(&task).write(&path)?;
+        let verdict = planner.verify(&PlanFile::load(&path)?)?;
+        assert!(verdict.passed);
     }
     Ok(())
 }

@@ -73,7 +73,23 @@
 //! | `pushplan-export` | MJCF, MCAP and joint trajectories out |
 //! | `pushplan-command` | the command `pushplan` |
 //!
-//! Only the items of this crate that this page lists are meant to stay stable.
+//! The types that most programs need are listed below. The rest of the public interface is grouped
+//! by subject:
+//!
+//! | module | content |
+//! |---|---|
+//! | [`shapes`] | solids and points in the plane and in space |
+//! | [`scenes`] | supports, surfaces, regions, joints and the robot's hand |
+//! | [`goals`] | criteria of goals |
+//! | [`motions`] | strokes, arms, and the legs of a carried tool |
+//! | [`models`] | effect models and their settings |
+//! | [`planning`] | budgets, predictions, statistics, causes, plans by hand |
+//! | [`outcomes`] | frames, contacts, forces, evidence and faults |
+//! | [`recordings`] | recorded motion |
+//! | [`files`] | files of plans and trajectories, faults with places, JSON schemas |
+//! | [`progress`] | progress and cancellation |
+//!
+//! Only these modules and the items of this page are meant to stay stable.
 //!
 //! # Internals
 //!
@@ -84,6 +100,7 @@
 
 mod error;
 pub mod internals;
+pub mod progress;
 
 #[doc(hidden)]
 pub mod asset;
@@ -107,8 +124,6 @@ pub mod outcome;
 pub mod plain_file;
 #[doc(hidden)]
 pub mod plan;
-#[doc(hidden)]
-pub mod progress;
 #[doc(hidden)]
 pub mod recording;
 #[doc(hidden)]
@@ -142,3 +157,89 @@ pub use task::{
     Place, Plan, Push, PushForm, PushRules, PushStep, Step, Task, ToolMotion, Truth,
 };
 pub use verify::Verifier;
+
+/// Solids and points in the plane and in space.
+pub mod shapes {
+    pub use crate::geometry::{
+        ContactPoint, Extent, Footprint, Pose3, Rim, Solid, SupportEdge, Vector3, centroid,
+        convex_hull, wrap_angle,
+    };
+}
+
+/// Parts of scenes: supports, surfaces, regions, joints, the robot's hand and its arm.
+pub mod scenes {
+    pub use crate::scene::{
+        ArmFault, Carried, Fixed, Hand, JointPoint, JointTrajectory, LeverScene, Mover,
+        PairFriction, Piece, Plate, Quantity, Region, RigidGroups, Slab, Span, Support, Surface,
+        TableTop, ToolError, Velocity, Weight, Whole, WorldJoint,
+    };
+    pub use crate::sim::Arm;
+}
+
+/// Criteria of goals, each a kind of [`Demand`](goals::Demand).
+pub mod goals {
+    pub use crate::task::demand::{
+        Area, AtPlace, Check, Coverage, Demand, Edge, End, Ending, Facing, Fall, Flipped, Gap,
+        Group, InArea, Kind, Lift, Mark, OutOfArea, Outside, Quantity, Raised, ShownGoal,
+    };
+    pub use crate::task::{Aspect, ToolChoice};
+}
+
+/// Rules and motions of pushes and lever-ups, observations, arms, and the legs of a carried tool.
+pub mod motions {
+    pub use crate::task::{
+        ArmReader, ArmRefusal, ArmSource, BlockedLeg, Directions, Followed, FrameStep, LeverMotion,
+        Observation, Offsets, ReachablePositions, RobotArm, StatedArm, Stroke, TravelLeg,
+        read_arms_with,
+    };
+}
+
+/// Effect models, the words that name them, and their fits to a table.
+pub mod models {
+    pub use crate::effect::{
+        EffectModels, Fallback, ModelError, Network, OutOfRange, Prior, Quantiles, Simulated,
+        Still, Trust,
+    };
+    pub use crate::network::{ParameterError, WeightsError};
+    pub use crate::scene::{
+        Assumptions, Engine, FittedObject, HeadSpread, JointBelief, ModelKind, ModelPart, Narrowed,
+        Rate, SpecError, Stride,
+    };
+}
+
+/// Budgets, predictions, statistics and causes of missing plans; plans made by hand.
+pub mod planning {
+    pub use crate::plan::lever::LeverSearchStatistics;
+    pub use crate::plan::{
+        Infeasible, QpProblem, QpStatus, RefineStatistics, ScoredPush, SearchSettings,
+        SearchStatistics, Start,
+    };
+    pub use crate::solve::{
+        ActionError, Approach, Cause, LeverActionError, LeverSettings, LeverStatistics,
+        ManualLever, ManualPlace, ManualPlan, ManualPush, ManualStart, Partial, PlannerBuilder,
+        Prediction, Refinement, Settings, Statistics, TaskFault, Timing, manual_lever, manual_plan,
+    };
+}
+
+/// Parts of trajectories and verdicts: frames, contacts, forces, evidence and faults.
+pub mod outcomes {
+    pub use crate::outcome::{
+        Contact, Evidence, Force, Frame, LeverFault, Miss, MovedObject, Perturbation, PushFault,
+        Reason, Spread, StepMoves, step_moves, warning_lines,
+    };
+    pub use crate::verify::{VerifySettings, rule_violations};
+}
+
+/// Recorded motion of a tool and objects.
+pub mod recordings {
+    pub use crate::recording::{Instant, Moving, RecordedFrame, Recording, Replay};
+}
+
+/// Files of plans, trajectories and recordings, faults with places, and JSON schemas.
+pub mod files {
+    pub use crate::asset::{
+        Fault, Faults, Kind, Place, PlanFile, TrajectoryFile, check, load_example, load_task,
+        load_world, plan_schema, recording_schema, recordings_in, task_schema, tool_schema,
+        trajectory_schema, world_schema, write_atomic,
+    };
+}

@@ -56,7 +56,10 @@ pub(super) fn write<T>(fields: &[Field<T>], value: &T) -> Json {
     Json::Object(fields.iter().filter_map(pair).collect::<Map<_, _>>())
 }
 
-/// Returns the first key whose value cannot be used in computations, with the message.
-pub(super) fn fault<T>(fields: &[Field<T>], value: &T) -> Option<(&'static str, &'static str)> {
-    fields.iter().find_map(|field| Some((field.key.name, (field.fault)(value)?)))
+/// Returns the keys whose values cannot be used in computations, with messages.
+pub(super) fn faults<T>(
+    fields: &[Field<T>],
+    value: &T,
+) -> impl Iterator<Item = (&'static str, &'static str)> {
+    fields.iter().filter_map(|field| Some((field.key.name, (field.fault)(value)?)))
 }

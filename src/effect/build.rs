@@ -22,6 +22,7 @@ impl EffectModels {
     ///
     /// # Errors
     /// Returns [`ModelError::Shipped`] if the library was built with a damaged weights file.
+    #[doc(hidden)]
     pub fn weights() -> Result<PredictorWeights, ModelError> {
         PredictorWeights::from_bytes(pushplan_models::BRDPN).map_err(ModelError::Shipped)
     }
@@ -30,6 +31,7 @@ impl EffectModels {
     ///
     /// # Errors
     /// Returns [`ModelError`] if they cannot be used.
+    #[doc(hidden)]
     pub fn weights_of(spec: &ModelSpec) -> Result<Option<PredictorWeights>, ModelError> {
         let file = spec.parts().find_map(|part| match &part.kind {
             ModelKind::Network { weights, .. } => Some(weights.as_deref()),
@@ -41,7 +43,7 @@ impl EffectModels {
     /// Builds the model described by `spec`.
     ///
     /// ```
-    /// use pushplan::effect::{EffectModel, EffectModels};
+    /// use pushplan::{EffectModel, models::EffectModels};
     ///
     /// let model = EffectModels::build(&"prior,up-to=2|planar,step=1/120".parse()?)?;
     /// assert_eq!(model.spec().parts().count(), 2);

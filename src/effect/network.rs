@@ -41,7 +41,17 @@ struct Strange {
 }
 
 impl Network {
+    /// Returns the model with the shipped weights.
+    ///
+    /// # Errors
+    /// Returns [`ModelError::Shipped`] if the library was built with a damaged weights file.
+    pub fn shipped() -> Result<Self, ModelError> {
+        let weights = PredictorWeights::from_bytes(pushplan_models::BRDPN);
+        weights.map(Self::new).map_err(ModelError::Shipped)
+    }
+
     /// Creates a model with these weights, which [`EffectModel::spec`] reports as the shipped ones.
+    #[doc(hidden)]
     pub fn new(weights: PredictorWeights) -> Self {
         let errors = weights.card.errors.as_ref();
         Self {
@@ -57,6 +67,7 @@ impl Network {
     /// Creates a model with weights from a file. `steps` replaces the number of propagation steps
     /// of the training, and `stride` frames are predicted as one. Measured errors apply to the
     /// weights as trained, frame by frame.
+    #[doc(hidden)]
     pub fn with(
         weights: PredictorWeights,
         file: Option<String>,
@@ -79,6 +90,7 @@ impl Network {
     ///
     /// # Panics
     /// Panics if the head has another width, see [`Self::effect_width`].
+    #[doc(hidden)]
     pub fn adapted(mut self, head: &Head) -> Self {
         self.forward = self.forward.with_head(head);
         self
@@ -109,6 +121,7 @@ impl Network {
     }
 
     /// Returns the weights.
+    #[doc(hidden)]
     pub fn weights(&self) -> &PredictorWeights {
         &self.weights
     }
@@ -139,11 +152,13 @@ impl Network {
     }
 
     /// Returns the forward pass.
+    #[doc(hidden)]
     pub fn forward(&self) -> &Forward {
         &self.forward
     }
 
     /// Returns the settings of the rollouts.
+    #[doc(hidden)]
     pub fn settings(&self) -> RollSettings {
         self.settings
     }

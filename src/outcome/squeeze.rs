@@ -62,7 +62,7 @@ mod tests {
     /// lasting force, beside a wall.
     fn pushed(travel: f64, lasting: f64) -> Option<Warning> {
         let can = Object::cylinder("can", 0.04, 0.1).mass(0.4);
-        let wall = Obstacle::new("wall", [0.02, 0.2, 0.1], Pose::new(0.2, 0.0, 0.0));
+        let wall = Obstacle::cuboid("wall", [0.02, 0.2, 0.1]).at(0.2, 0.0, 0.0);
         let scene = Scene::new([can]).with_obstacle(wall);
         let by = ModelKind::Still.into();
         let mut trajectory = Trajectory::standing(by, Pose::default(), scene.start());

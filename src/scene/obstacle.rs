@@ -29,17 +29,23 @@ impl Obstacle {
     /// Default friction value of an obstacle: plain wood.
     pub const FRICTION: f64 = 0.5;
 
-    /// Creates a fixed cuboid with these full extents (metres) and the default friction value.
-    pub fn new(name: impl Into<String>, size: [f64; 3], pose: Pose) -> Self {
-        Self { name: name.into(), size, pose, z: 0.0, friction: Self::FRICTION }
+    /// Creates a fixed cuboid at the origin with these full extents (metres) and the default
+    /// friction value.
+    pub fn cuboid(name: impl Into<String>, size: [f64; 3]) -> Self {
+        Self { name: name.into(), size, pose: Pose::default(), z: 0.0, friction: Self::FRICTION }
+    }
+
+    /// Puts its centre at (`x`, `y`), metres, with this `heading`, radians.
+    pub fn at(self, x: f64, y: f64, heading: f64) -> Self {
+        Self { pose: Pose::new(x, y, heading), ..self }
     }
 
     /// Puts its underside at this height above the table, metres.
     ///
     /// ```
-    /// use pushplan::{Obstacle, Pose};
+    /// use pushplan::Obstacle;
     ///
-    /// let shelf = Obstacle::new("shelf", [0.3, 0.6, 0.02], Pose::new(0.7, 0.0, 0.0)).raised(0.15);
+    /// let shelf = Obstacle::cuboid("shelf", [0.3, 0.6, 0.02]).at(0.7, 0.0, 0.0).raised(0.15);
     /// assert!(shelf.meets([0.0, 0.2]) && !shelf.meets([0.0, 0.1]));
     /// ```
     pub fn raised(self, z: f64) -> Self {

@@ -5,22 +5,23 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::asset::ToolLibrary;
-use crate::outcome::Warning;
+use crate::asset::{PlanFile, ToolLibrary};
+use crate::outcome::{Verdict, Warning};
 use crate::plan::{Search, alone};
 use crate::progress::{Instant, NoProgress, Progress, Until};
 use crate::scene::{Situation, Tool};
 use crate::task::Task;
+use crate::verify::{Verifier, VerifySettings};
 
 use super::blackboard::Blackboard;
-use super::check::check;
+use super::check::{check, common};
 use super::choice::solve_one_of;
 use super::error::SolveError;
 use super::grade::Class;
 use super::infeasibility::{self, Cause, Hints, beyond, out_of_reach};
 use super::lever_check::check_levers;
 use super::partial_goals::meet_some_goals;
-use super::planner::{Planner, stated};
+use super::planner::{Planner, lacking, stated};
 use super::query::Query;
 use super::report;
 use super::solution::{PlanStatus, Solution};
@@ -118,6 +119,65 @@ impl Planner {
         let until = Until::new(progress, self.time_limit);
         let (tools, settings) = (&tools, self.settings().first_attempt(task));
         solve_pushes(Query { planner: self, task, situation, tools, progress: &until, settings })
+    }
+
+    /// Returns warnings that a solution of a pushing task will carry with every allowed tool,
+    /// before any search: values outside the model's range, and guessed ones. Returns none for
+    /// tasks with lever-ups.
+    ///
+    /// # Errors
+    /// Returns [`SolveError`] for invalid input only.
+    pub fn doubts(&self, task: &Task, library: &ToolLibrary) -> Result<Vec<Warning>, SolveError> {
+        if task.in_space() {
+            return Ok(Vec::new());
+        }
+        let situation = stated(task);
+        let nearest = task.choices(&situation.start).into_iter().next();
+        let one = nearest.as_ref().unwrap_or(task);
+        let tools = one.tools(library)?;
+        check(one, &situation, &tools[..])?;
+        let doubts = |tool| self.distrust(&situation, typical(one, &situation.start, tool));
+        let mut each = tools.iter().map(doubts);
+        let mut common = each.next().unwrap_or_default();
+        for other in each {
+            common.retain(|warning| other.contains(warning));
+        }
+        common.extend(task.unknown.any().then_some(Warning::Guessed { unknown: task.unknown }));
+        Ok(common)
+    }
+
+    /// Replays the plan of a file in both engines, as written and perturbed, and judges it. The
+    /// number of perturbed replays and their seed are the planner's; replays are added until the
+    /// verdict is clear.
+    ///
+    /// ```
+    /// use pushplan::files::PlanFile;
+    /// use pushplan::{Effort, Planner, Task, ToolLibrary};
+    ///
+    /// let planner = Planner::for_effort(Effort::Draft)?.build();
+    /// let task = Task::example("pull-back")?;
+    /// let solution = planner.solve(&task, &ToolLibrary::embedded()?)?;
+    /// let best = solution.best().expect("a plan");
+    /// let file = PlanFile::new(task, best.tools.clone(), best.plan.clone());
+    /// assert!(planner.verify(&file)?.passed);
+    /// # Ok::<(), pushplan::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Returns [`SolveError`] for invalid input only.
+    pub fn verify(&self, file: &PlanFile) -> Result<Verdict, SolveError> {
+        let PlanFile { task, tools, plan, joints, .. } = file;
+        let situation = stated(task);
+        common(task, &situation).finish(task)?;
+        if plan.motions(tools).is_none() {
+            return Err(lacking(task, plan));
+        }
+        let (replays, seed) = (self.settings().replays, self.seed());
+        let verifier = Verifier::new(VerifySettings { replays, seed });
+        let verifier = verifier.until_clear().moving(joints.as_ref());
+        let until = Until::new(&NoProgress, self.time_limit);
+        let verifier = verifier.with_progress(&until);
+        Ok(verifier.verify(task, &situation, tools, plan))
     }
 
     /// Returns the cause if a pushing task has no plan, as [`Planner::solve`] reports it. Returns

@@ -42,7 +42,7 @@ mod strategy;
 mod try_out;
 mod typical;
 
-pub use error::SolveError;
+pub use error::{SolveError, TaskFault};
 pub use infeasibility::Cause;
 pub use lever_settings::LeverSettings;
 pub use manual_lever::{LeverActionError, ManualLever, ManualPlace, manual_lever};

@@ -188,10 +188,7 @@ impl Planner {
     ) -> Result<Prediction, SolveError> {
         let situation = stated(task);
         check(task, &situation, tools)?;
-        let what =
-            || format!("the plan uses tools that were not given: {}", plan.tools().join(", "));
-        let unfit = || SolveError::BadTask { task: task.name.clone(), what: what() };
-        let motions = plan.slides(tools).ok_or_else(unfit)?;
+        let motions = plan.slides(tools).ok_or_else(|| lacking(task, plan))?;
         self.refuse(task, &situation, motions.into_iter())?;
         Ok(self.predict_all(task, &situation, &[(plan, tools)]).remove(0))
     }
@@ -208,8 +205,7 @@ impl Planner {
             return Ok(());
         }
         let mut warnings = Vec::new();
-        let asked = |motion| self.model.trust(&situation.scene, &Job::new(situation, motion));
-        for warning in motions.flat_map(|motion| asked(motion).warnings()) {
+        for warning in motions.flat_map(|motion| self.distrust(situation, motion)) {
             // Warnings about the scene repeat for every tool.
             if !warnings.contains(&warning) {
                 warnings.push(warning);
@@ -219,6 +215,11 @@ impl Planner {
             true => Ok(()),
             false => Err(SolveError::Refused { task: task.name.clone(), warnings }),
         }
+    }
+
+    /// Returns the reasons not to rely on the model for this motion.
+    pub(super) fn distrust(&self, situation: &Situation, motion: ToolMotion) -> Vec<Warning> {
+        self.model.trust(&situation.scene, &Job::new(situation, motion)).warnings()
     }
 
     /// Returns the seed.
@@ -277,6 +278,12 @@ pub fn stated(task: &Task) -> Situation {
         Arc::make_mut(&mut situation.physics).supports_known = false;
     }
     situation
+}
+
+/// Returns the error of a plan that names tools that were not given.
+pub(super) fn lacking(task: &Task, plan: &Plan) -> SolveError {
+    let what = format!("the plan uses tools that were not given: {}", plan.tools().join(", "));
+    SolveError::bad_task(task, "", what)
 }
 
 /// Returns the trajectory of no motion.

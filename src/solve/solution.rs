@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::asset::PlanFile;
 use crate::geometry::Vector;
 use crate::plan::lever::LeverSearchStatistics;
 use crate::plan::{RefineStatistics, ScoredPush, SearchStatistics};
@@ -99,6 +100,25 @@ impl RankedPlan {
 }
 
 impl RankedPlan {
+    /// Returns the file of this plan for `task`, with its prediction and verdict.
+    ///
+    /// ```no_run
+    /// # use pushplan::{Error, RankedPlan, Task};
+    /// # fn saved(task: &Task, best: &RankedPlan) -> Result<(), Error> {
+    /// best.to_file(task).write("my-task.plan.json")?;
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn to_file(&self, task: &Task) -> PlanFile {
+        PlanFile {
+            model: Some(self.predicted.by.clone()),
+            predicted: Some(self.outcome.clone()),
+            verdict: self.verdict.clone(),
+            joints: self.joints.clone(),
+            ..PlanFile::new(task.clone(), self.tools.clone(), self.plan.clone())
+        }
+    }
+
     /// Returns `true` if the plan as written works in both engines with every plausible support
     /// model.
     pub fn works_on_all_supports(&self, task: &Task, situation: &Situation) -> bool {

@@ -201,7 +201,7 @@ impl Task {
     /// Allows lever-ups. [`Task::pushes`] states whether pushes may follow them.
     ///
     /// ```
-    /// use pushplan::task::{Demand, Flipped};
+    /// use pushplan::goals::{Demand, Flipped};
     /// use pushplan::{Goal, LeverRules, Object, PushRules, Robot, Scene, Task};
     ///
     /// let plate = Object::cuboid("plate", [0.12, 0.08, 0.008]).on_feet(0.006).at(0.5, 0.0, 0.0);

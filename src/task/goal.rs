@@ -50,7 +50,7 @@ impl Goal {
     ///
     /// ```
     /// use pushplan::Goal;
-    /// use pushplan::task::{Demand, Flipped};
+    /// use pushplan::goals::{Demand, Flipped};
     ///
     /// let turned = Goal::of(0).with(Demand::Flipped(Flipped { flipped: true }));
     /// assert!(!turned.has_place());

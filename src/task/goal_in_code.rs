@@ -59,8 +59,8 @@ impl Goal {
     /// [`Scene::let_fall`].
     ///
     /// ```
-    /// use pushplan::scene::TableTop;
-    /// use pushplan::task::{Edge, Fall};
+    /// use pushplan::scenes::TableTop;
+    /// use pushplan::{Edge, Fall};
     /// use pushplan::{Goal, Object, Pose, Robot, Scene, State, Task, Vector};
     ///
     /// let mut scene = Scene::new([Object::cylinder("can", 0.04, 0.10).at(0.5, 0.1, 0.0)]);
@@ -132,7 +132,7 @@ impl Goal {
     ///
     /// ```
     /// use pushplan::{Goal, JointKind, Object, Pose, Scene, State, Vector};
-    /// use pushplan::scene::Span;
+    /// use pushplan::scenes::Span;
     ///
     /// let limits = Some(Span::new(0.0, 4.0));
     /// let door = Object::cuboid("door", [0.2, 0.02, 0.1]).at(0.5, 0.0, 0.0);

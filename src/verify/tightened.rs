@@ -81,7 +81,7 @@ mod tests {
     /// direction.
     fn wall(direction: Vector) -> Option<Pose> {
         let can = Object::cylinder("can", 0.04, 0.1).at(0.0, 0.0, 0.0);
-        let wall = Obstacle::new("wall", [0.02, 0.2, 0.1], Pose::new(0.1, 0.0, 0.0));
+        let wall = Obstacle::cuboid("wall", [0.02, 0.2, 0.1]).at(0.1, 0.0, 0.0);
         let scene = Scene::new([can]).with_obstacle(wall);
         let by = ModelKind::Still.into();
         let mut trajectory = Trajectory::standing(by, Pose::default(), scene.start());

@@ -8,7 +8,7 @@ use crate::ROOT;
 
 mod cycles;
 mod plain_files;
-mod reading;
+pub mod reading;
 
 use reading::{code_of, imports, names, sources};
 

@@ -45,7 +45,7 @@ fn begun(task: &Task, truth: &Truth) -> Trace {
 
 fn run(trace: &mut Trace, world: &mut dyn World) -> Result<(), ActError> {
     let (planner, library) = (planner(), library());
-    Runner::new(&planner, &library).run(trace, world, &mut |_| Ok(()), &NoProgress)
+    Runner::new(&planner, &library).run_with(trace, world, &mut |_| Ok(()), &NoProgress)
 }
 
 pub fn drawn(task: &Task, seed: u64) -> (Trace, SimulatedWorld) {
@@ -107,7 +107,7 @@ fn a_run_that_is_stopped_goes_on_to_the_same_bits_and_threads_change_nothing() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
             let (mut trace, mut world) = drawn(&task, 1);
-            runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
+            runner.run_with(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
             trace
         })
     };
@@ -126,12 +126,12 @@ pub fn interrupted(runner: &Runner, task: &Task) -> Trace {
         kept = serde_json::to_string(trace).expect("JSON");
         Ok(())
     };
-    let ended = runner.run(&mut stopped, &mut world, &mut keep, &After(1, Default::default()));
+    let ended = runner.run_with(&mut stopped, &mut world, &mut keep, &After(1, Default::default()));
     assert!(matches!(ended, Err(ActError::Stopped { pushes: 1 })), "{ended:?}");
     // The world is lost with the process; only the file remains.
     let mut again: Trace = serde_json::from_str(&kept).expect("a trace");
     let (_, mut world) = drawn(task, 1);
-    runner.run(&mut again, &mut world, &mut |_| Ok(()), &NoProgress).expect("the rest");
+    runner.run_with(&mut again, &mut world, &mut |_| Ok(()), &NoProgress).expect("the rest");
     again
 }
 

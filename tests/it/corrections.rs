@@ -27,8 +27,8 @@ fn job(random: &mut Pcg64, jointed: bool) -> (Scene, Job) {
         cuboid("behind", draw(0.3, 0.35), draw(-0.05, 0.05), draw(-3.0, 3.0)),
         cuboid("far", 0.2, 0.6, 0.0),
     ];
-    let pose = Pose::new(draw(0.42, 0.5), draw(-0.1, 0.1), draw(-0.3, 0.3));
-    let wall = Obstacle::new("wall", [0.05, 0.1, 0.1], pose);
+    let wall = Obstacle::cuboid("wall", [0.05, 0.1, 0.1]);
+    let wall = wall.at(draw(0.42, 0.5), draw(-0.1, 0.1), draw(-0.3, 0.3));
     let scene = Scene::new(objects).on_table(0.5).with_obstacle(wall);
     let scene = match jointed {
         true => {

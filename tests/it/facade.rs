@@ -1,9 +1,12 @@
 //! The library from a user's view: errors that read as text, tools that can be added, results that
 //! can be written.
 
+mod closure;
+mod in_code;
+
 use std::path::Path;
 
-use pushplan::task::{Demand, Flipped};
+use pushplan::goals::{Demand, Flipped};
 use pushplan::{
     EffectModel, Effort, Error, Goal, Job, LeverRules, Object, Outcome, Part, Pivot, PlanStatus,
     Planner, Pose, PushRules, Record, Robot, Scene, Simulated, Simulator, Solution, SolveError,
@@ -44,7 +47,8 @@ fn an_error_that_leaves_main_is_printed_as_text() {
     task.goals[0].set_tolerance(0.0);
     let library = ToolLibrary::embedded().unwrap();
     let refused: SolveError = planner().solve(&task, &library).unwrap_err();
-    let text = "task `pull-back`: the tolerance of the goal is 0, but must be a positive number";
+    let text =
+        "task `pull-back`: goal: the tolerance of the goal is 0, but must be a positive number";
     assert_eq!(format!("{refused:?}"), text);
     assert_eq!(format!("{:?}", Error::from(refused)), text);
 

@@ -40,7 +40,7 @@ fn a_tool_goes_back_a_little_and_all_the_way_from_below_a_shelf() {
     let table = Scene::new([]);
     assert_eq!(ways(&table, &motion([bar()], true)), [Some(RETREAT); 2]);
     assert_eq!(ways(&table, &motion([bar()], false)), [None, Some(RETREAT)]);
-    let shelf = Obstacle::new("shelf", [0.1, 0.4, 0.02], Pose::new(0.7, 0.0, 0.0)).raised(0.1);
+    let shelf = Obstacle::cuboid("shelf", [0.1, 0.4, 0.02]).at(0.7, 0.0, 0.0).raised(0.1);
     let below = table.with_obstacle(shelf);
     assert_eq!(ways(&below, &motion([bar()], true)), [Some(RETREAT), Some(0.2)]);
     // The grip is also below the shelf, although all parts are beyond it.

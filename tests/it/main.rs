@@ -17,6 +17,7 @@ mod constraints;
 mod corrections;
 mod coverages;
 mod design;
+mod documents;
 mod doors;
 mod edited_plans;
 mod english;

@@ -2,7 +2,7 @@
 
 use pushplan::asset::ToolLibrary;
 use pushplan::solve::{PlanStatus, Solution};
-use pushplan::{EffectModel, Job, Obstacle, Pose, Push, Simulated, Simulator, ToolMotion, Vector};
+use pushplan::{EffectModel, Job, Obstacle, Push, Simulated, Simulator, ToolMotion, Vector};
 use pushplan::{
     outcome::{Record, Warning},
     scene::{Engine, Rate, Situation, Span, State},
@@ -110,7 +110,7 @@ fn an_object_held_up_beyond_the_edge_has_not_fallen() {
     let mut task = task("{object: box, off_table: left}");
     task.scene.objects[0].pose.heading = 0.0;
     // The gap is 5 mm narrower than the box.
-    let wall = Obstacle::new("wall", [0.3, 0.02, 0.3], Pose::new(0.65, 0.465, 0.0));
+    let wall = Obstacle::cuboid("wall", [0.3, 0.02, 0.3]).at(0.65, 0.465, 0.0);
     task.scene.obstacles.push(wall);
     let hangs = |one: &Warning| matches!(one, Warning::Hangs { object } if object == "box");
     for (wall, fails) in [(true, true), (false, false)] {

@@ -77,7 +77,7 @@ fn run(task: &Task, truth: impl FnOnce(&mut Truth)) -> (Trace, SimulatedWorld) {
     let mut trace = Trace::new(task.clone(), settings, "draft".into(), None);
     let library = library();
     let runner = Runner::new(&planner, &library);
-    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
+    runner.run_with(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
     (trace, world)
 }
 

@@ -23,7 +23,7 @@ fn scene() -> Scene {
         disc.mass(0.3).at(x, y, 0.0)
     };
     let pin = JointKind::Revolute { at: Vector::new(0.14, 0.0), limits: None };
-    let wall = Obstacle::new("wall", [0.02, 0.4, 0.1], Pose::new(0.42, 0.0, 0.0)).friction(0.4);
+    let wall = Obstacle::cuboid("wall", [0.02, 0.4, 0.1]).at(0.42, 0.0, 0.0).friction(0.4);
     Scene::new((0..12).map(object)).with_joint([4, 1], pin).with_obstacle(wall)
 }
 

@@ -55,7 +55,7 @@ fn can(x: f64, y: f64) -> Object {
 }
 
 fn wall(x: f64, y: f64, size: [f64; 3]) -> Obstacle {
-    Obstacle::new("wall", size, Pose::new(x, y, 0.0)).friction(0.4)
+    Obstacle::cuboid("wall", size).at(x, y, 0.0).friction(0.4)
 }
 
 fn task(object: Object, goal: [f64; 2]) -> Task {

@@ -54,7 +54,7 @@ fn finger(aside: f64) -> ToolMotion {
 fn a_square_written_as_a_prism_moves_as_the_cuboid_does() {
     let own = Object::prism("square", square(), 0.05).standing_on(Support::Spread(0.7));
     let other = Object::cuboid("square", [0.07, 0.07, 0.05]).standing_on(Support::Spread(0.7));
-    let post = Obstacle::new("post", [0.04, 0.04, 0.1], Pose::new(0.12, 0.07, 0.4));
+    let post = Obstacle::cuboid("post", [0.04, 0.04, 0.1]).at(0.12, 0.07, 0.4);
     for (name, model) in models() {
         for (aside, heading) in [(0.0, 0.0), (0.012, 0.3), (-0.02, 0.7)] {
             let ends = [&own, &other].map(|object| {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pushplan::ToolLibrary;
-use pushplan::geometry::{Pose, Vector};
+use pushplan::geometry::Vector;
 use pushplan::outcome::{LeverFault, PushFault, Warning};
 use pushplan::scene::{Obstacle, Scene, Situation, Tool};
 use pushplan::task::{LeverUp, Plan, Push, PushForm, PushStep, Step, Task};
@@ -121,7 +121,7 @@ fn pushes_in_a_row_and_changes_of_the_tool_are_counted() {
 fn tool_hand_and_lifted_tool_keep_clear_of_obstacles() {
     let with = |name: &str, size: [f64; 3], at: [f64; 2], z: f64| {
         let mut task = lever_task();
-        let obstacle = Obstacle::new(name, size, Pose::new(at[0], at[1], 0.0));
+        let obstacle = Obstacle::cuboid(name, size).at(at[0], at[1], 0.0);
         task.scene.obstacles.push(Obstacle { z, ..obstacle });
         task
     };

@@ -98,7 +98,7 @@ fn low_objects_pass_below_a_handle_and_tall_objects_do_not() {
             assert!((end[1].position.x - 0.51).abs() < 5e-3 || !passes, "{name} {end:?}");
         }
         // An obstacle below the handle does not hold it either.
-        let block = Obstacle::new("block", [0.02, 0.02, height], Pose::new(0.54, 0.12, 0.0));
+        let block = Obstacle::cuboid("block", [0.02, 0.02, height]).at(0.54, 0.12, 0.0);
         let scene = kettle().with_obstacle(block);
         for (name, model) in models() {
             let motion = pushed(0.05, 0.06, [0.42, 0.0], 0.12);

@@ -61,9 +61,7 @@ pub fn scene() -> Scene {
         object(Shape::Cuboid { size: [0.05, 0.05, 0.1] }, 0.12, 0.09, 0.7).mass(1.1),
     ])
     .on_table(0.4)
-    .with_obstacle(
-        Obstacle::new("wall", [0.02, 0.2, 0.1], Pose::new(0.22, -0.05, 0.1)).friction(0.3),
-    )
+    .with_obstacle(Obstacle::cuboid("wall", [0.02, 0.2, 0.1]).at(0.22, -0.05, 0.1).friction(0.3))
 }
 
 pub fn tool() -> Arc<Tool> {

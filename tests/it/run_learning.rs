@@ -36,7 +36,7 @@ fn pushes_of_a_run_teach_the_network_to_the_same_bits_after_an_interruption() {
     let runner = Runner::new(&planner, &library).learning(Some(given.clone())).expect("a network");
     let json = |trace: &Trace| serde_json::to_string(trace).expect("JSON");
     let (mut trace, mut world) = drawn(&task, 1);
-    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
+    runner.run_with(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
     let learnt = trace.learnt.as_ref().expect("something");
     assert_eq!(learnt.pushes, given.pushes + trace.steps.len());
     assert!(trace.steps.len() >= 2 && learnt.head != given.head);
@@ -49,7 +49,7 @@ fn pushes_of_a_run_teach_the_network_to_the_same_bits_after_an_interruption() {
     // Unknown properties of the scene are inferred first.
     let open = task.with_unknowns(Unknowns { frictions: true, ..Unknowns::NONE });
     let (mut trace, mut world) = drawn(&open, 1);
-    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
+    runner.run_with(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
     assert_eq!(trace.learnt, None);
 }
 
@@ -64,7 +64,7 @@ fn pushes_that_the_arm_cannot_begin_teach_nothing() {
     let mut world = SimulatedWorld::new(truth).pushed_with(Some(1.0));
     let settings = RunSettings { max_pushes: 2, samples: 2, ..RunSettings::default() };
     let mut trace = Trace::new(task, settings, "draft".into(), None);
-    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
+    runner.run_with(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
     assert!(!trace.steps.is_empty() && trace.steps.iter().all(|step| step.stop.is_some()));
     let learnt = trace.learnt.expect("learned parameters");
     let begun = trace.steps.iter().filter(|step| !step.motion().strokes.is_empty()).count();

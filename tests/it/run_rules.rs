@@ -60,7 +60,7 @@ pub fn run_in(task: &Task, world: &str) -> (Result<(), ActError>, Trace, bool) {
         (Planner::for_effort(Effort::Draft).expect("its model").build(), library());
     let mut world = SimulatedWorld::new(truth).pushed_with(task.robot.max_force);
     let runner = Runner::new(&planner, &library);
-    let ended = runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress);
+    let ended = runner.run_with(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress);
     let reached = task.reached(world.state());
     (ended, trace, reached)
 }

@@ -64,7 +64,7 @@ fn push(tool: &Tool, random: &mut Pcg64) -> (Scene, Stroke) {
     let object =
         Object::cuboid("box", size).at(at.x, at.y, random.random_range(-3.1..3.1)).friction(0.4);
     let beyond = at + along * 0.15 + aside * 0.05;
-    let wall = Obstacle::new("wall", [0.05, 0.05, 0.1], Pose::new(beyond.x, beyond.y, way));
+    let wall = Obstacle::cuboid("wall", [0.05, 0.05, 0.1]).at(beyond.x, beyond.y, way);
     let scene = Scene::new([object]).on_table(0.5);
     let scene = if random.random_bool(0.3) { scene.with_obstacle(wall) } else { scene };
     let turn = if random.random_bool(0.3) { random.random_range(-0.5..0.5) } else { 0.0 };
@@ -106,7 +106,8 @@ fn how_a_tool_is_cut_into_parts_and_in_which_order_changes_nothing() {
 fn touching_obstacles_are_one_body_however_they_are_cut() {
     let pose = Pose::new(0.3, 0.1, 0.7);
     let wall = |name: &str, length: f64, along: f64| {
-        Obstacle::new(name, [length, 0.05, 0.1], pose * Pose::new(along, 0.0, 0.0))
+        let pose = pose * Pose::new(along, 0.0, 0.0);
+        Obstacle { pose, ..Obstacle::cuboid(name, [length, 0.05, 0.1]) }
     };
     let box_ahead = || Object::cuboid("box", [0.05, 0.05, 0.1]).at(0.0, 0.0, 0.0);
     let state = |walls: Vec<Obstacle>| {

@@ -90,7 +90,7 @@ fn run(task: &Task) -> Trace {
     let mut trace = Trace::new(task.clone(), settings, "draft".into(), Some(truth.clone()));
     let mut world = SimulatedWorld::new(truth);
     let runner = Runner::new(&planner, &library);
-    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).unwrap();
+    runner.run_with(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).unwrap();
     assert_eq!(trace.end == Some(End::Reached), task.goals[0].reached(world.state()));
     trace
 }

@@ -117,8 +117,8 @@ fn a_can_does_not_pass_through_a_gap_narrower_than_itself() {
     let mut task = task();
     // The can is 8 cm wide, the gap before its goal 7.5 cm.
     for (name, side) in [("left", 1.0), ("right", -1.0)] {
-        let at = Pose::new(0.575, side * (0.0375 + 0.15), 0.0);
-        task.scene.obstacles.push(Obstacle::new(name, [0.05, 0.3, 0.1], at));
+        let wall = Obstacle::cuboid(name, [0.05, 0.3, 0.1]);
+        task.scene.obstacles.push(wall.at(0.575, side * (0.0375 + 0.15), 0.0));
     }
     // The pushing finger itself fits through the gap.
     let finger = Part::cuboid("finger", [0.02, 0.02, 0.05], Pose::new(0.22, 0.0, 0.0));
@@ -146,8 +146,7 @@ fn violations_of_the_task_are_reported_for_any_plan() {
     let mut task = task();
     task.tools = ToolChoice::Named(vec!["stick".into()]);
     task.robot.reach_max = 0.3;
-    let behind = Pose::new(0.3, 0.0, 0.0);
-    task.scene.obstacles.push(Obstacle::new("post", [0.02, 0.02, 0.1], behind));
+    task.scene.obstacles.push(Obstacle::cuboid("post", [0.02, 0.02, 0.1]).at(0.3, 0.0, 0.0));
     let askew = [push([0.235, 0.0], 0.0, 0.155)];
     let askew = Plan::pushing("paddle", 0.3, PushForm::Placed, 0.002, askew);
     let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &[paddle()], &askew);

@@ -15,5 +15,6 @@ pub mod judge;
 pub mod regulator;
 
 pub use act::{
-    ActError, Look, RunSettings, Runner, SimulatedWorld, Trace, World, WorldError, hidden,
+    ActError, End, Look, RunSettings, Runner, SimulatedWorld, Stop, Trace, World, WorldError,
+    WorldState, hidden,
 };

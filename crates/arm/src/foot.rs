@@ -1,6 +1,6 @@
 //! The foot of an arm: obstacles around the root link and the links fixed to it.
 
-use pushplan::geometry::{Pose, Vector3};
+use pushplan::geometry::Vector3;
 use pushplan::scene::{Obstacle, Robot};
 
 use super::model::Arm;
@@ -21,8 +21,8 @@ pub(super) fn foot(arm: &Arm) -> Vec<Obstacle> {
         let size = high - low;
         (size.min() > 0.0).then(|| {
             let middle = low + 0.5 * size;
-            let pose = Pose::new(middle.x, middle.y, 0.0);
-            Obstacle::new("", size.into(), pose).raised(low.z)
+            let block = Obstacle::cuboid("", size.into());
+            block.at(middle.x, middle.y, 0.0).raised(low.z)
         })
     });
     let name = |(k, one): (usize, Obstacle)| {

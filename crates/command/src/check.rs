@@ -1,14 +1,12 @@
-//! `pushplan check`: reports all errors of files, or prints the JSON schema of a kind of file that
-//! users write.
+//! `pushplan check`: reports all errors of files, or prints the JSON schema of a kind of file or of
+//! a command's output.
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
-use pushplan::asset::{
-    self, Fault, Faults, Kind, ToolLibrary, load_example, load_task, recording_schema, task_schema,
-    tool_schema, world_schema,
-};
+use pushplan::asset::{self, Fault, Faults, Kind, ToolLibrary, load_example, load_task};
+use pushplan::outcome::warning_lines;
 use pushplan::solve::{Effort, Planner};
 use pushplan::task::Task;
 use pushplan_act::act::{ActError, Trace};
@@ -17,8 +15,8 @@ use pushplan_report::Document;
 use serde_json::{Value as Json, json};
 
 use super::{
-    action::LibraryArgs, error::CliError, exit_code, progress::TerminalProgress, session::Session,
-    solve::solve_error, task_argument,
+    action::LibraryArgs, error::CliError, exit_code, progress::TerminalProgress, schema,
+    session::Session, solve::solve_error, task_argument,
 };
 
 /// Check files and list every error with its location, or print a JSON schema for editors
@@ -28,6 +26,7 @@ use super::{
   pushplan check --why my-task.yaml
   pushplan check --example pull-back --json
   pushplan check --schema task > task.schema.json
+  pushplan check --schema solution
   # then begin the task file with this line:
   # yaml-language-server: $schema=task.schema.json")]
 pub struct CheckArgs {
@@ -37,9 +36,11 @@ pub struct CheckArgs {
     #[arg(long, value_name = "NAME", help = task_argument::HELP, conflicts_with = "files",
           hide_possible_values = true, value_parser = task_argument::example())]
     example: Option<String>,
-    /// Print the JSON schema of this kind of file
-    #[arg(long, value_name = "KIND", conflicts_with_all = ["files", "example", "json"])]
-    schema: Option<Schema>,
+    /// Print the JSON schema of this kind of file, or of the document that a command prints with
+    /// `--json`
+    #[arg(long, value_name = "KIND", conflicts_with_all = ["files", "example", "json"],
+          value_parser = schema::kinds())]
+    schema: Option<String>,
     /// Also explain why a pushing task has no plan, as `solve` would, but without verifying plans
     #[arg(long, conflicts_with = "schema")]
     why: bool,
@@ -48,15 +49,6 @@ pub struct CheckArgs {
     json: bool,
     #[command(flatten)]
     library: LibraryArgs,
-}
-
-/// Files that people write.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Schema {
-    Tool,
-    Task,
-    Recording,
-    World,
 }
 
 /// File or shipped task to be checked.
@@ -97,14 +89,8 @@ fn damaged(file: &Path, error: &ActError) -> Faults {
 }
 
 pub fn run(args: &CheckArgs, session: &Session) -> Result<u8, CliError> {
-    if let Some(kind) = args.schema {
-        let schema = match kind {
-            Schema::Tool => tool_schema(),
-            Schema::Task => task_schema(),
-            Schema::Recording => recording_schema(),
-            Schema::World => world_schema(),
-        };
-        session.print(&format!("{schema:#}\n"))?;
+    if let Some(kind) = &args.schema {
+        session.print(&format!("{:#}\n", schema::of(kind)))?;
         return Ok(exit_code::DONE);
     }
     let library = args.library.load()?;
@@ -116,16 +102,21 @@ pub fn run(args: &CheckArgs, session: &Session) -> Result<u8, CliError> {
         match subject.check(&library) {
             Ok(kind) => {
                 print(format!("{name}: {kind}, valid\n"))?;
+                let warnings = match kind {
+                    Kind::Task => warnings(&subject, &library)?,
+                    _ => Vec::new(),
+                };
+                session.warn_each(&warnings);
                 let mut reason = None;
                 if args.why && kind == Kind::Task {
                     let (own, words) = why(&subject, &library, session)?;
                     print(format!("  {words}\n"))?;
                     (code, reason) = (code.max(own), Some(words));
                 }
-                files.push(row(&name, Some(kind), &[], reason));
+                files.push(row(&name, Ok((kind, warnings)), reason));
             }
             Err(found) => {
-                files.push(row(&name, None, &found.0, None));
+                files.push(row(&name, Err(&found.0), None));
                 faults.extend(found.0);
             }
         }
@@ -141,8 +132,19 @@ pub fn run(args: &CheckArgs, session: &Session) -> Result<u8, CliError> {
     }
 }
 
-/// Returns the JSON object of a checked file.
-fn row(name: &str, kind: Option<Kind>, faults: &[Fault], why: Option<String>) -> Json {
+/// Returns the warnings that a solution of a task will carry with every tool.
+fn warnings(subject: &Subject, library: &ToolLibrary) -> Result<Vec<String>, CliError> {
+    let planner = Planner::for_effort(Effort::default())?.build();
+    let found = planner.doubts(&subject.task(library)?, library).map_err(solve_error)?;
+    Ok(warning_lines(&found))
+}
+
+/// Returns the JSON object of a checked file: its kind and warnings, or its faults.
+fn row(name: &str, found: Result<(Kind, Vec<String>), &[Fault]>, why: Option<String>) -> Json {
+    let (kind, warnings, faults) = match found {
+        Ok((kind, warnings)) => (Some(kind), warnings, &[][..]),
+        Err(faults) => (None, Vec::new(), faults),
+    };
     let fault = |fault: &Fault| {
         json!({
             "file": fault.file,
@@ -155,7 +157,7 @@ fn row(name: &str, kind: Option<Kind>, faults: &[Fault], why: Option<String>) ->
     let faults: Vec<Json> = faults.iter().map(fault).collect();
     json!({
         "file": name, "kind": kind.map(|kind| kind.to_string()), "valid": faults.is_empty(),
-        "faults": faults, "why": why,
+        "faults": faults, "warnings": warnings, "why": why,
     })
 }
 

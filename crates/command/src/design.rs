@@ -15,6 +15,7 @@ use super::{
     error::CliError,
     exit_code,
     form::Form,
+    interrupt,
     output::{self, ResultArgs},
     progress::TerminalProgress,
     session::Session,
@@ -93,6 +94,7 @@ pub fn run(args: &DesignArgs, session: &Session) -> Result<u8, CliError> {
     let settings = DesignSettings::looking_at(args.candidates as usize);
     let settings = DesignSettings { parts: args.parts.into(), ..settings };
     let settings = if args.random { settings.at_random() } else { settings };
+    interrupt::watch();
     let following = TerminalProgress::spinner(session, "designing");
     let designed = session
         .compute(|| pushplan_design::design(&planner, &task, &library, &settings, &following));
@@ -128,7 +130,7 @@ pub fn run(args: &DesignArgs, session: &Session) -> Result<u8, CliError> {
     // A tool is shown even if it cannot be saved.
     document.wrote(written.as_deref().unwrap_or_default());
     args.form.show(session, &document)?;
-    written.map(|_: Vec<PathBuf>| code)
+    written.map(|_: Vec<PathBuf>| interrupt::code(code))
 }
 
 /// Writes the file of a tool into the folder and returns its path.

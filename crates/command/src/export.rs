@@ -5,13 +5,15 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use pushplan::asset::{self, Fault, Faults, Kind, PlanFile, SCHEMA_VERSION, TrajectoryFile};
+use pushplan::asset::{self, Fault, Faults, Kind, PlanFile, TrajectoryFile};
 use pushplan::{outcome::Trajectory, scene::ModelSpec};
 #[cfg(feature = "mcap")]
 use pushplan_export::mcap;
 use pushplan_export::{
     ExportError, LEVER_SCRIPT, REPLAY_SCRIPT, joint_table, joint_trajectory, mjcf,
 };
+
+use pushplan_report::Document;
 
 use super::{error::CliError, exit_code, model, output, session::Session};
 
@@ -133,8 +135,8 @@ pub fn run(args: &ExportArgs, session: &Session) -> Result<u8, CliError> {
         }
     }
     if args.json {
-        let report = json!({"schema_version": SCHEMA_VERSION, "files": written});
-        session.print(&format!("{report:#}\n"))?;
+        let document = Document { json: json!({"files": written}), ..Document::default() };
+        session.print(&document.to_json())?;
     } else {
         let lines: Vec<String> =
             written.iter().map(|path| format!("wrote {}\n", path.display())).collect();

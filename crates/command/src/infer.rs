@@ -14,7 +14,7 @@ use super::{
     error::CliError,
     exit_code,
     form::Form,
-    model,
+    interrupt, model,
     noise::NoiseArgs,
     output,
     progress::TerminalProgress,
@@ -95,8 +95,9 @@ pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
     let following = TerminalProgress::bar(session, "inferring");
     let observations = recording.observations();
     let count = Count::new(&following, 0, observations.len());
+    interrupt::watch();
     session.compute(|| {
-        for observation in observations {
+        for observation in observations.into_iter().take_while(|_| !interrupt::requested()) {
             belief.update(&model, observation);
             count.one();
         }
@@ -114,7 +115,7 @@ pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
         output::write(folder, "belief.html", page.as_bytes())?;
     }
     args.form.show(session, &document)?;
-    Ok(exit_code::DONE)
+    Ok(interrupt::code(exit_code::DONE))
 }
 
 /// Returns the recipe that repeats the inference, with the non-default settings.

@@ -56,6 +56,11 @@ pub fn watch() -> &'static AtomicBool {
     })
 }
 
+/// Returns the exit code of work that ends with `code` unless a stop was requested.
+pub fn code(code: u8) -> u8 {
+    if requested() { exit_code::INTERRUPTED } else { code }
+}
+
 /// Returns `true` if a stop was requested.
 pub fn requested() -> bool {
     FLAGS.get().is_some_and(|flags| flags.requested.load(Ordering::SeqCst))

@@ -34,6 +34,7 @@ pub mod recorded;
 pub mod recordings;
 pub mod regulator;
 pub mod run;
+mod schema;
 pub mod session;
 pub mod solve;
 pub mod task_argument;

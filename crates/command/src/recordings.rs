@@ -48,7 +48,7 @@ pub fn load_recordings(paths: &[PathBuf]) -> Result<Vec<RecordingSet>, CliError>
     if faults.is_empty() { Ok(sets) } else { Err(Faults(faults).into()) }
 }
 
-/// Reads a recording, or a trajectory file as a recording.
+/// Reads a recording, or a trajectory file as a recording; refuses other files.
 fn load(file: &Path) -> Result<Recording, Faults> {
     match asset::check(file, None)? {
         Kind::Trajectory => {
@@ -63,6 +63,11 @@ fn load(file: &Path) -> Result<Recording, Faults> {
             let frames = &file.trajectory.frames;
             Ok(Recording::of_frames(&file.task.name, &file.task.scene, motion, frames))
         }
-        _ => Recording::load(file),
+        Kind::Recording => Recording::load(file),
+        other => {
+            let message = format!("this is a {other} file, not a recording");
+            let advice = "name recordings, trajectories or folders of them";
+            Err(Fault::of_file(&file.display().to_string(), message, advice).into())
+        }
     }
 }

@@ -170,9 +170,14 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     let mut trace = begin(&path, begun, args.resume)?;
     let mut world = SimulatedWorld::new(truth).pushed_with(trace.task.robot.max_force);
     let mut keep = |trace: &Trace| trace.write(&path);
-    let ran = session.compute(|| runner.run(&mut trace, &mut world, &mut keep, &following));
+    let ran = session.compute(|| runner.run_with(&mut trace, &mut world, &mut keep, &following));
     following.finish()?;
-    ran.map_err(|error| act_error(error, &path))?;
+    if let Err(error) = ran {
+        if matches!(error, ActError::Stopped { .. }) {
+            args.form.show_rest(session, &run_document(&trace), false)?;
+        }
+        return Err(act_error(error, &path));
+    }
     for note in trace.all_notes() {
         session.warn(&note.words(&trace.task.scene));
     }

@@ -18,6 +18,7 @@ use super::{
     error::CliError,
     exit_code,
     form::Form,
+    interrupt,
     model::{self, OutOfRangeArgs},
     output::{self, ResultArgs},
     progress::TerminalProgress,
@@ -100,6 +101,7 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
         Some(limit) => planner.time_limit(limit).build(),
         None => planner.build(),
     };
+    interrupt::watch();
     let following = TerminalProgress::spinner(session, "solving");
     let solved = session.compute(|| planner.solve_with(&task, &library, &following));
     following.finish()?;
@@ -123,7 +125,7 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     // A plan that took minutes is shown even if it cannot be saved.
     document.wrote(written.as_deref().unwrap_or_default());
     args.form.show(session, &document)?;
-    written.map(|_| code)
+    written.map(|_| interrupt::code(code))
 }
 
 /// Parses a share from 0 to 1.
@@ -196,16 +198,7 @@ impl Results<'_> {
         let situation = Situation::stated(&task.scene);
         let replays = session.compute(|| best.replays(task, &situation));
         let path = out.join(format!("{name}.plan.json"));
-        let file = PlanFile {
-            task: task.clone(),
-            tools: best.tools.clone(),
-            plan: best.plan.clone(),
-            model: Some(best.predicted.by.clone()),
-            fit: planner.fit().cloned(),
-            predicted: Some(best.outcome.clone()),
-            verdict: best.verdict.clone(),
-            joints: best.joints.clone(),
-        };
+        let file = PlanFile { fit: planner.fit().cloned(), ..best.to_file(task) };
         file.write(&path).map_err(CliError::Output)?;
         let mut written = vec![path];
         let figures = plan_figures(task, best, &replays, name, self.animate);

@@ -52,9 +52,8 @@ pub fn design(
     progress: &dyn Progress,
 ) -> Result<Design, SolveError> {
     if task.in_space() {
-        let what =
-            "tools are proposed only for tasks of pushing, but this task has lever-ups".into();
-        return Err(SolveError::BadTask { task: task.name.clone(), what });
+        let what = "tools are proposed only for tasks of pushing, but this task has lever-ups";
+        return Err(SolveError::bad_task(task, "levers", what));
     }
     let progress = &Until::new(progress, planner.time_limit());
     let situation = stated(task);

@@ -3,9 +3,8 @@
 use std::fmt::Display;
 use std::time::Duration;
 
-use pushplan::effect::{EffectModels, Fallback, OutOfRange};
-use pushplan::scene::{Engine, TableFit};
-use pushplan::{Effort, ModelSpec, PlanStatus};
+use pushplan::models::{EffectModels, Engine, Fallback, OutOfRange};
+use pushplan::{Effort, ModelSpec, PlanStatus, TableFit};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 

@@ -5,8 +5,7 @@ use numpy::{
     AllowTypeChange, Element, IntoPyArray, PyArray, PyArray1, PyArray2, PyArrayLikeDyn,
     PyArrayMethods,
 };
-use pushplan::scene::State;
-use pushplan::{Pose, Trajectory};
+use pushplan::{Pose, State, Trajectory};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 

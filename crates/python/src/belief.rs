@@ -3,12 +3,10 @@
 use std::path::PathBuf;
 
 use numpy::{PyArray1, PyArray2, PyArray3};
+use pushplan::Noise;
 use pushplan::progress::Progress;
-use pushplan::recording::Recording;
-use pushplan::{
-    scene::{Span, Velocity},
-    task::Noise,
-};
+use pushplan::recordings::Recording;
+use pushplan::scenes::{Span, Velocity};
 use pushplan_act::belief::{Belief, BeliefRegulator, BeliefSettings};
 use pushplan_report::belief_document;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};

@@ -1,9 +1,8 @@
 //! Conversion of library errors to the exceptions of `pushplan.errors`.
 
-use pushplan::SolveError;
-use pushplan::asset::Faults;
-use pushplan::effect::ModelError;
-use pushplan::outcome::Warning;
+use pushplan::files::Faults;
+use pushplan::models::ModelError;
+use pushplan::{SolveError, Warning};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -19,7 +18,7 @@ fn raise<'py>(py: Python<'py>, name: &str, arguments: impl pyo3::call::PyCallArg
 /// Converts faults of a file or text; for a mapping, `keys` holds the key of every line of its
 /// text.
 pub fn files(py: Python<'_>, faults: &Faults, keys: Option<&[String]>) -> PyErr {
-    let fault = |fault: &pushplan::asset::Fault| -> PyResult<Py<PyAny>> {
+    let fault = |fault: &pushplan::files::Fault| -> PyResult<Py<PyAny>> {
         let class = py.import("pushplan.errors")?.getattr("Fault")?;
         let (line, column, key) = match keys {
             None => (fault.place.map(|at| at.line), fault.place.map(|at| at.column), None),
@@ -63,7 +62,7 @@ pub fn model(py: Python<'_>, error: &ModelError) -> PyErr {
 }
 
 /// Converts the error of a text that names no model.
-pub fn spec(py: Python<'_>, error: &pushplan::scene::SpecError) -> PyErr {
+pub fn spec(py: Python<'_>, error: &pushplan::models::SpecError) -> PyErr {
     raise(py, "ModelError", (error.to_string(),))
 }
 

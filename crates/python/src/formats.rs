@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use pushplan::Vector;
-use pushplan::asset::{Faults, write_atomic};
+use pushplan::files::{Faults, write_atomic};
 use pushplan_import::{Imported, Model, Reading, Wanted};
 use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;

@@ -3,7 +3,7 @@
 //! Tasks and tools built in code thereby obey the same rules as files, and faults name keys instead
 //! of lines.
 
-use pushplan::asset::Faults;
+use pushplan::files::Faults;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple};

@@ -1,7 +1,7 @@
 //! Change of a task's initial poses, for planning from an intermediate state.
 
-use pushplan::scene::{Joint, JointKind, Object, Span};
-use pushplan::{Pose, State, Task};
+use pushplan::scenes::Span;
+use pushplan::{Joint, JointKind, Object, Pose, State, Task};
 
 /// Returns the task with these initial poses. Joints move along: anchors and axes move with the
 /// first object of each joint, and limits count from the new poses.

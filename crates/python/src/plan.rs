@@ -3,14 +3,12 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use pushplan::asset::PlanFile;
-use pushplan::solve::{ManualPush, manual_plan};
-use pushplan::verify::{VerifySettings, rule_violations};
-use pushplan::{Job, RankedPlan, Task, Trajectory, Verdict, Verifier};
+use pushplan::files::PlanFile;
+use pushplan::models::Engine;
+use pushplan::outcomes::{VerifySettings, rule_violations};
+use pushplan::planning::{ManualPush, manual_plan};
 use pushplan::{
-    outcome::Warning,
-    scene::{Engine, Situation, TableFit},
-    task::PushForm,
+    Job, PushForm, RankedPlan, Situation, TableFit, Task, Trajectory, Verdict, Verifier, Warning,
 };
 use pushplan_export::mjcf;
 use pushplan_report::{Graph, Origin, PageView, TaskSource, verdict_page};

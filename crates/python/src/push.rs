@@ -1,6 +1,6 @@
 //! Pushes given by the caller or stored in plans.
 
-use pushplan::solve::{ManualPush, ManualStart};
+use pushplan::planning::{ManualPush, ManualStart};
 use pushplan::{Push, Vector};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use numpy::ndarray::Axis;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArray4};
-use pushplan::effect::EffectModel;
 use pushplan::progress::{Cancel, Progress};
-use pushplan::{Job, Outcome, Push, Record, Task, ToolMotion, Trajectory, Vector};
-use pushplan::{outcome::Warning, scene::Situation, task::PushForm};
+use pushplan::{
+    EffectModel, Job, Outcome, Push, PushForm, Record, Situation, Task, ToolMotion, Trajectory,
+    Vector, Warning,
+};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;

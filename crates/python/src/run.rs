@@ -4,8 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use numpy::PyArray2;
-use pushplan::scene::ObservedPose;
-use pushplan::{Noise, Tool, ToolMotion, Vector};
+use pushplan::{Noise, ObservedPose, Tool, ToolMotion, Vector};
 use pushplan_act::act::{ActError, End, Look, SimulatedWorld, World, WorldError};
 use pushplan_act::{RunSettings, Runner, Trace, hidden};
 use pushplan_report::{PageView, Recipe, run_document, run_page};
@@ -284,7 +283,7 @@ pub fn run(
     let mut trace = Trace::new(stated.as_ref().clone(), settings, planned_by, None);
     let threads = arguments::threads(threads)?;
     let ran = work::run(py, threads, |cancel| {
-        runner.run(&mut trace, &mut place, &mut |_| Ok(()), cancel)
+        runner.run_with(&mut trace, &mut place, &mut |_| Ok(()), cancel)
     })?;
     if let Place::Theirs { raised: Some(error), .. } = place {
         return Err(error);

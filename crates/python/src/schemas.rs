@@ -8,17 +8,17 @@ use crate::json::dict;
 /// Returns the JSON schema (draft 2020-12) of tool files and of mappings for `Tool.from_dict`.
 #[pyfunction]
 pub fn tool_schema(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
-    dict(py, &pushplan::asset::tool_schema())
+    dict(py, &pushplan::files::tool_schema())
 }
 
 /// Returns the JSON schema (draft 2020-12) of task files and of mappings for `Task.from_dict`.
 #[pyfunction]
 pub fn task_schema(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
-    dict(py, &pushplan::asset::task_schema())
+    dict(py, &pushplan::files::task_schema())
 }
 
 /// Returns the JSON schema (draft 2020-12) of recordings and of mappings for `Recording.from_dict`.
 #[pyfunction]
 pub fn recording_schema(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
-    dict(py, &pushplan::asset::recording_schema())
+    dict(py, &pushplan::files::recording_schema())
 }

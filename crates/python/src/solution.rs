@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use pushplan::solve::PlanStatus;
-use pushplan::{RankedPlan, Solution, TableFit, Task};
-use pushplan::{outcome::warning_lines, scene::Situation};
+use pushplan::outcomes::warning_lines;
+use pushplan::{PlanStatus, RankedPlan, Situation, Solution, TableFit, Task};
 use pushplan_report::{Origin, PageView, TaskSource, solution_document, solution_page};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

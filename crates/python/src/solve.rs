@@ -2,17 +2,13 @@
 
 use std::sync::Arc;
 
-use pushplan::asset::PlanFile;
-use pushplan::effect::{EffectModel, Fallback};
+use pushplan::files::PlanFile;
+use pushplan::models::{Fallback, ModelKind};
+use pushplan::outcomes::VerifySettings;
 use pushplan::progress::{Cancel, Until};
-use pushplan::verify::VerifySettings;
 use pushplan::{
-    Job, Planner, Pose, Record, Simulator, Solution, SolveError, Task, ToolLibrary, Trajectory,
-    Verifier,
-};
-use pushplan::{
-    outcome::Warning,
-    scene::{ModelKind, Situation, TableFit},
+    EffectModel, Job, Planner, Pose, Record, Simulator, Situation, Solution, SolveError, TableFit,
+    Task, ToolLibrary, Trajectory, Verifier, Warning,
 };
 use pushplan_report::TaskSource;
 use pyo3::prelude::*;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use pushplan::TableFit;
-use pushplan::effect::{EffectModels, Network, Prior};
+use pushplan::models::{Network, Prior};
 use pushplan::progress::NoProgress;
 use pushplan_act::fit::{Basis, FitSettings, HeadSettings, learn};
 use pushplan_act::judge::Trial;
@@ -144,8 +144,7 @@ pub fn fit(
     recordings: Vec<Py<PyRecording>>,
     threads: usize,
 ) -> PyResult<PyTableFit> {
-    let weights = EffectModels::weights().map_err(|error| errors::model(py, &error))?;
-    let network = Network::new(weights);
+    let network = Network::shipped().map_err(|error| errors::model(py, &error))?;
     let trials: Vec<Trial> =
         recordings.iter().map(|one| Trial::of_recording(&one.get().0)).collect();
     let learnt = work::run(py, arguments::threads(threads)?, |_| {

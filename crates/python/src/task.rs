@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use numpy::PyArray2;
-use pushplan::asset::{load_example, load_task};
-use pushplan::task::ToolChoice;
+use pushplan::files::{load_example, load_task};
+use pushplan::goals::ToolChoice;
 use pushplan::{Pose, State, Task};
 use pushplan_report::TaskSource;
 use pyo3::exceptions::PyValueError;

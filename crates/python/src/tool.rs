@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use pushplan::asset::Faults;
+use pushplan::files::Faults;
 use pushplan::{Tool, ToolLibrary};
 use pyo3::exceptions::{PyKeyError, PyTypeError};
 use pyo3::prelude::*;

@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use numpy::{PyArray1, PyArray2, PyArray3};
-use pushplan::outcome::Warning;
-use pushplan::{Outcome, Task, Trajectory};
+use pushplan::{Outcome, Task, Trajectory, Warning};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 use serde_json::json;

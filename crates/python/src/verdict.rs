@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use numpy::PyArray2;
-use pushplan::asset::PlanFile;
-use pushplan::outcome::{Evidence, Perturbation, Warning};
-use pushplan::{Task, Verdict};
+use pushplan::files::PlanFile;
+use pushplan::outcomes::{Evidence, Perturbation};
+use pushplan::{Task, Verdict, Warning};
 use pushplan_report::{
     Origin, PageView, TaskSource, replay_warnings, verdict_document, verdict_page,
 };

@@ -2,12 +2,12 @@
 
 use serde_json::json;
 
-use pushplan::scene::{Joint, JointKind, Span};
+use pushplan::scene::{JOINABLE, Joint, JointKind, Span};
 use pushplan_act::belief::{Belief, JointType, MassShares, NO_STOP};
 
 use super::chart::{Axis, Chart, Mark, Series};
 use super::document::{Document, Drawing, Figure, Section};
-use super::number::degrees;
+use super::number::{degrees, millimetres};
 use super::plan_text::point;
 use super::table::{
     Align::{Left, Right},
@@ -52,8 +52,11 @@ pub fn belief_document(title: &str, belief: &Belief, names: &[&str], ranges: &[S
         count => format!("{count} pairs are"),
     };
     let title = format!("{title}: {observations} observations; {pairs} close enough to be joined");
-    let figures = if rows.is_empty() { Vec::new() } else { vec![over_time(belief, &name)] };
-    let mut sections = vec![Section { table, figures, ..Section::default() }];
+    let note = nothing_to_infer(names.len(), rows.len());
+    let mut sections = vec![match &note {
+        Some(note) => Section { lines: vec![note.clone()], ..Section::default() },
+        None => Section { table, figures: vec![over_time(belief, &name)], ..Section::default() },
+    }];
     let masses = belief.mass_shares();
     if let Some(masses) = &masses {
         sections.extend(mass_sections(masses, names, ranges));
@@ -65,6 +68,7 @@ pub fn belief_document(title: &str, belief: &Belief, names: &[&str], ranges: &[S
         "probabilities": probabilities,
         "joints": now.physics.joints,
         "history": belief.history(),
+        "note": note,
     });
     if let Some(masses) = masses {
         json["masses"] = json!({
@@ -74,6 +78,16 @@ pub fn belief_document(title: &str, belief: &Belief, names: &[&str], ranges: &[S
         });
     }
     Document { title, sections, json, ..Document::default() }
+}
+
+/// Returns the reason why a recording with so many objects and near pairs holds no joint to infer.
+fn nothing_to_infer(objects: usize, pairs: usize) -> Option<String> {
+    let why = match objects {
+        _ if pairs > 0 => return None,
+        1 => "the recording has a single object".to_owned(),
+        _ => format!("no two objects start within {} of each other", millimetres(JOINABLE)),
+    };
+    Some(format!("no joints to infer: {why}; `pushplan fit` finds support and friction"))
 }
 
 /// Returns the probabilities of mass ranges, and the mass ratios of objects that touched.

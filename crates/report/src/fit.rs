@@ -51,11 +51,22 @@ pub fn fit_document(fit: &Fit, objects: &[&str]) -> Document {
             ("of motion", Right, &|(_, error)| share(error)),
         ],
     );
-    let mut lines = vec![format!("support: {{spread: {:.2}}}", fit.spread.mean)];
+    let identified = fit.identified_spread().is_some();
+    let friction = if identified { fit.friction.mean } else { fit.stated.friction };
+    let mut lines = vec![match identified {
+        true => format!("The friction {friction:.2} holds together with this spread."),
+        false => format!(
+            "The recordings do not identify a spread, so the friction {friction:.2} is the one for \
+             the supports as stated."
+        ),
+    }];
+    lines.extend(identified.then(|| format!("support: {{spread: {:.2}}}", fit.spread.mean)));
     lines.push("frictions:".into());
-    lines.extend(objects.iter().map(|object| {
-        format!("  - {{between: [{object}, tool], coefficient: {:.2}}}", fit.friction.mean)
-    }));
+    lines.extend(
+        objects
+            .iter()
+            .map(|object| format!("  - {{between: [{object}, tool], coefficient: {friction:.2}}}")),
+    );
     let noise = match fit.settings.noise {
         Some(_) => "stated",
         None => "estimated",
@@ -84,7 +95,7 @@ pub fn fit_document(fit: &Fit, objects: &[&str]) -> Document {
                 ..Section::default()
             },
         ],
-        json: json!({"fit": fit}),
+        json: json!({"fit": fit, "friction": friction}),
         ..Document::default()
     }
 }

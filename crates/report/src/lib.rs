@@ -26,6 +26,7 @@ mod poses;
 mod prediction;
 mod recorded;
 mod run;
+mod schema;
 mod second_opinion;
 mod solution;
 mod solved;
@@ -56,6 +57,7 @@ pub use recorded::{
     trials_line,
 };
 pub use run::run_document;
+pub use schema::DocumentKind;
 pub use second_opinion::{Judged, SecondOpinion, TimedReplay};
 pub use solution::solution_document;
 pub use solved::{SOLVED_COLUMNS, error_chart, flat, progress_note, solved_cells, solved_document};

@@ -227,6 +227,7 @@ fn json(task: &Task, solution: &Solution) -> Json {
         "model": solution.best().map(|best| &best.predicted.by),
         "status": solution.status,
         "stopped": solution.stopped,
+        "best": solution.best().map(|_| 0),
         "partial": solution.partial.as_ref().map(|partial| {
             let name = |goal: &Goal| goal.names(&task.scene);
             let met = task.goals.iter().enumerate().map(|(k, goal)| {

@@ -3,7 +3,7 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::asset::field::{Field, fault, keys, read, set, write};
+use crate::asset::field::{Field, faults, keys, read, set, write};
 use crate::asset::node::Node;
 use crate::asset::put::{self, drawn};
 use crate::asset::shapes::{PLACED_SHAPE, SHAPE, placed, shape};
@@ -36,7 +36,8 @@ const Z: Key = Key::optional(
     "z",
     HEIGHT,
     "Height of the underside above the table, metres; default `clearance`, or 0 without one. An \
-     object that lies higher than its clearance needs obstacles below it.",
+     object that lies higher than its clearance needs obstacles below it. Only tasks with \
+     lever-ups may state it; in tasks of pushes only, objects stand on the table.",
 );
 
 const HEIGHT: Value = Value::Number(Range {
@@ -183,10 +184,9 @@ pub(in crate::asset) fn emitted_object(object: &Object) -> serde_json::Value {
 }
 
 impl Scene {
-    /// Returns a message on the first value of an object that cannot be used in computations, with
-    /// its key in a task file. Only values set in code can be faulty. Returns `None` if all values
-    /// are valid.
-    pub fn object_fault(&self) -> Option<String> {
+    /// Returns the values of objects that cannot be used in computations, each by its key path in a
+    /// task file, with a message. Only values set in code can be faulty.
+    pub fn object_faults(&self) -> Vec<(String, &'static str)> {
         let path = |index: usize| match self.objects[index].whole {
             Some(Whole { object, .. }) => {
                 let before = self.parts_of(object).take_while(|part| *part < index).count();
@@ -194,10 +194,10 @@ impl Scene {
             }
             None => format!("scene.objects[{index}]"),
         };
-        self.objects.iter().enumerate().find_map(|(index, object)| {
-            let (key, message) = fault(&FIELDS, object)?;
-            Some(format!("{}.{key} {message}", path(index)))
-        })
+        let each = self.objects.iter().enumerate().flat_map(|(index, object)| {
+            faults(&FIELDS, object).map(move |(key, message)| (index, key, message))
+        });
+        each.map(|(index, key, message)| (format!("{}.{key}", path(index)), message)).collect()
     }
 }
 

@@ -260,7 +260,7 @@ fn standing(plate: &Plate, rest: &Pose3) -> Obstacle {
     };
     let ((x, length), (y, width)) = (span(&|point| point.x), span(&|point| point.y));
     let top = points.iter().map(|point| point.z).fold(0.0, f64::max);
-    Obstacle::new(&plate.name, [length, width, top], Pose::new(x, y, 0.0)).friction(plate.friction)
+    Obstacle::cuboid(&plate.name, [length, width, top]).at(x, y, 0.0).friction(plate.friction)
 }
 
 /// Returns the corners of all solids of a plate and of its feet, in the world frame, metres.

@@ -34,7 +34,7 @@ pub const CORRECTED: usize = 5;
 /// that is only a path ending in `.safetensors` is short for `network,weights=` and that file.
 ///
 /// ```
-/// use pushplan::scene::{ModelKind, ModelSpec};
+/// use pushplan::models::{ModelKind, ModelSpec};
 ///
 /// let spec: ModelSpec = "prior,up-to=2|planar,step=1/120".parse()?;
 /// let fallback: ModelSpec = "planar,step=1/120".parse()?;
@@ -42,7 +42,7 @@ pub const CORRECTED: usize = 5;
 /// assert_eq!(spec.to_string(), "prior,up-to=2|planar,step=1/120");
 /// let error = "quasi-static".parse::<ModelSpec>().unwrap_err();
 /// assert!(error.to_string().contains("use network, prior, planar"));
-/// # Ok::<(), pushplan::scene::SpecError>(())
+/// # Ok::<(), pushplan::models::SpecError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ModelSpec {

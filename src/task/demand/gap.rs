@@ -239,7 +239,7 @@ mod tests {
         let handle = Object::cuboid("mug/handle", [0.04, 0.01, 0.08]);
         Scene::new([mug, block])
             .with_part(0, handle, Pose::new(0.06, 0.0, 0.0))
-            .with_obstacle(Obstacle::new("wall", [0.02, 0.4, 0.1], Pose::new(0.3, 0.0, 0.0)))
+            .with_obstacle(Obstacle::cuboid("wall", [0.02, 0.4, 0.1]).at(0.3, 0.0, 0.0))
     }
 
     #[test]

@@ -31,7 +31,7 @@ fn legs(task: &Task, pushes: &[Push]) -> Result<Vec<TravelLeg>, BlockedLeg> {
 }
 
 fn wall(height: f64, width: f64) -> Obstacle {
-    Obstacle::new("wall", [0.02, width, height], Pose::new(0.6, 0.0, 0.0))
+    Obstacle::cuboid("wall", [0.02, width, height]).at(0.6, 0.0, 0.0)
 }
 
 #[test]
@@ -106,7 +106,7 @@ fn tools_change_at_home_and_do_not_rotate_through_walls() {
     // A long tool beside a tall post cannot rotate there; it goes home in between.
     let long = Part::cuboid("rod", [0.6, 0.02, 0.05], Pose::new(0.3, 0.0, 0.0));
     let long = Arc::new(Tool::new("rod", [long]).expect("one piece"));
-    let posted = task(vec![Obstacle::new("post", [0.02, 0.02, 0.5], Pose::new(0.5, 0.55, 0.0))]);
+    let posted = task(vec![Obstacle::cuboid("post", [0.02, 0.02, 0.5]).at(0.5, 0.55, 0.0)]);
     let yaw = std::f64::consts::FRAC_PI_2;
     let first = Plan::pushing("rod", 0.0, PushForm::Placed, 0.002, [push(0.3, 0.1)]);
     let then = Plan::pushing("rod", yaw, PushForm::Placed, 0.002, [push(0.3, 0.05)]);

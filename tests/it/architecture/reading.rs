@@ -7,14 +7,14 @@ use crate::ROOT;
 
 /// Returns the code of a file without comments. Test modules are included, because they would also
 /// couple the modules.
-pub(super) fn code_of(text: &str) -> String {
+pub(crate) fn code_of(text: &str) -> String {
     let code = |line: &str| line.split("//").next().unwrap_or_default().to_owned() + "\n";
     text.lines().map(code).collect()
 }
 
 /// Returns the names after `crate::` in the code of a file, in order; `crate::{a::b, c}` contains
 /// several.
-pub(super) fn imports(text: &str, start: &str) -> Vec<String> {
+pub(crate) fn imports(text: &str, start: &str) -> Vec<String> {
     let code = code_of(text);
     let mut found = Vec::new();
     for after in code.split(start).skip(1) {
@@ -43,7 +43,7 @@ pub(super) fn imports(text: &str, start: &str) -> Vec<String> {
 }
 
 /// Returns `true` if the code uses an item of the crate `name`.
-pub(super) fn names(code: &str, name: &str) -> bool {
+pub(crate) fn names(code: &str, name: &str) -> bool {
     let path = format!("{name}::");
     let inner = |c| in_word(c) || c == ':';
     code.match_indices(&path).any(|(at, _)| !code[..at].ends_with(inner))
@@ -53,12 +53,12 @@ fn first_word(text: &str) -> String {
     text.chars().take_while(|c| in_word(*c)).collect()
 }
 
-pub(super) fn in_word(c: char) -> bool {
+pub(crate) fn in_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
 /// Returns every Rust file under `folder`, with its path relative to the repository.
-pub(super) fn sources(folder: &str) -> Vec<(PathBuf, String)> {
+pub(crate) fn sources(folder: &str) -> Vec<(PathBuf, String)> {
     let root = Path::new(ROOT);
     let mut found = Vec::new();
     let mut folders = vec![root.join(folder)];

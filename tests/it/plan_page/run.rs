@@ -145,7 +145,7 @@ fn run(name: &str, seed: u64) -> Trace {
     let mut trace = Trace::new(task, settings, "draft".into(), Some(truth.clone()));
     let mut world = SimulatedWorld::new(truth);
     let runner = Runner::new(&planner, &library);
-    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
+    runner.run_with(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress).expect("a run");
     assert!(trace.steps.iter().all(|step: &Step| step.pushes > 0));
     trace
 }

@@ -5,7 +5,7 @@
 //!
 //! ```
 //! use pushplan::{Effort, Planner, Task, ToolLibrary};
-//! use pushplan_act::{RunSettings, Runner, SimulatedWorld, Trace, hidden};
+//! use pushplan_act::{End, Runner, SimulatedWorld, hidden};
 //!
 //! let library = ToolLibrary::embedded()?;
 //! let text = include_str!("../../../../tasks/hidden-hinge.yaml");
@@ -14,11 +14,9 @@
 //! // A robot's table would stand here.
 //! let truth = hidden(&task, &library, 1)?;
 //! let mut world = SimulatedWorld::new(truth);
-//! let mut trace = Trace::new(task, RunSettings::default(), "draft".into(), None);
-//! let runner = Runner::new(&planner, &library);
-//! let progress = pushplan::internals::progress::NoProgress;
-//! runner.run(&mut trace, &mut world, &mut |_| Ok(()), &progress)?;
-//! assert!(trace.task.goals[0].reached(world.state()));
+//! let trace = Runner::new(&planner, &library).run(&task, &mut world)?;
+//! assert_eq!(trace.end, Some(End::Reached));
+//! assert!(task.goals[0].reached(world.state()));
 //! # Ok::<(), pushplan::Error>(())
 //! ```
 //!

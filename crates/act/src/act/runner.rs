@@ -5,13 +5,13 @@ use std::sync::Arc;
 use crate::belief::{Belief, BeliefRegulator, BeliefSettings, generator};
 use pushplan::asset::{Faults, ToolLibrary};
 use pushplan::effect::{ModelError, Prior};
-use pushplan::geometry::Pose;
-use pushplan::progress::Progress;
+use pushplan::progress::{NoProgress, Progress};
 use pushplan::solve::{Planner, SolveError};
 use pushplan::{
+    geometry::Pose,
     outcome::{Record, Trajectory, Warning},
     scene::{ObservedPose, Scene, Situation, State, TableFit, Tool},
-    task::{Goal, Job, Observation, Plan, Push, PushForm},
+    task::{Goal, Job, Observation, Plan, Push, PushForm, Task},
 };
 
 use super::decide::Decision;
@@ -20,6 +20,7 @@ use super::gather::{Gatherer, Note};
 use super::judge::{Chance, Samples};
 use super::learning::Learner;
 use super::rules::{broken_at_rest, broken_in};
+use super::settings::RunSettings;
 use super::trace::{End, Step, Trace, Why};
 use super::world::{Look, World};
 
@@ -69,6 +70,17 @@ impl<'a> Runner<'a> {
         Ok(Self { learner: learner.map(Arc::new), ..self })
     }
 
+    /// Runs a task in `world` to its end with the default settings and returns the record.
+    ///
+    /// # Errors
+    /// Returns the errors of [`Runner::run_with`].
+    pub fn run(&self, task: &Task, world: &mut dyn World) -> Result<Trace, ActError> {
+        let by = self.planner.model().spec().to_string();
+        let mut trace = Trace::new(task.clone(), RunSettings::default(), by, None);
+        self.run_with(&mut trace, world, &mut |_| Ok(()), &NoProgress)?;
+        Ok(trace)
+    }
+
     /// Starts or resumes the run of `trace` and continues it to its end.
     ///
     /// `keep` receives the trace after the first observation and after every step. An interrupted
@@ -77,7 +89,7 @@ impl<'a> Runner<'a> {
     /// # Errors
     /// Returns an error if the run cannot continue or is cancelled by `progress`; the trace holds
     /// the finished steps.
-    pub fn run(
+    pub fn run_with(
         &self,
         trace: &mut Trace,
         world: &mut dyn World,
@@ -152,10 +164,8 @@ impl<'a> Runner<'a> {
     fn begin(&self, trace: &Trace) -> Result<(Belief, Vec<Note>), ActError> {
         let Trace { task, settings, first, .. } = trace;
         if task.levers.is_some() {
-            let what = "`run` does not support lever-ups, because the objects cannot be observed \
-                        after one"
-                .to_owned();
-            return Err(SolveError::BadTask { task: task.name.clone(), what }.into());
+            let what = "`run` observes no objects after lever-ups, and does not support them";
+            return Err(SolveError::bad_task(task, "levers", what).into());
         }
         let stated = task.scene.start();
         let mut gatherer = Gatherer::new(&stated, &stated);

@@ -39,6 +39,14 @@ pub struct KeepArgs {
     shard: Option<Shard>,
 }
 
+/// Results of a run.
+pub struct Kept<R> {
+    /// Finished tasks.
+    pub store: Store<R>,
+    /// Interruption that left the run unfinished, if any.
+    pub interruption: Option<CliError>,
+}
+
 impl KeepArgs {
     /// Returns the indices of the tasks that this part of a run measures, of `count`.
     pub fn indices(&self, count: usize) -> impl ExactSizeIterator<Item = usize> {
@@ -48,26 +56,26 @@ impl KeepArgs {
     /// Measures the remaining tasks of a run, with progress on stderr.
     ///
     /// # Errors
-    /// Returns the errors of [`Store::open`] and `measure`, and an interruption.
+    /// Returns the errors of [`Store::open`] and `measure`.
     pub fn measure<R: Serialize + DeserializeOwned>(
         &self,
         session: &Session,
         manifest: RunManifest,
         measure: impl FnMut(usize) -> Result<Measured<R>, CliError>,
-    ) -> Result<Store<R>, CliError> {
+    ) -> Result<Kept<R>, CliError> {
         self.kept(session, manifest, |store, following| store.run(following, measure))
     }
 
     /// Measures the remaining tasks, one on each of the session's threads, without shared work.
     ///
     /// # Errors
-    /// Returns the errors of [`Store::open`], and an interruption.
+    /// Returns the errors of [`Store::open`].
     pub fn measure_side_by_side<R: Serialize + DeserializeOwned + Send>(
         &self,
         session: &Session,
         manifest: RunManifest,
         measure: impl Fn(usize) -> Measured<R> + Sync,
-    ) -> Result<Store<R>, CliError> {
+    ) -> Result<Kept<R>, CliError> {
         self.kept(session, manifest, |store, following| {
             let alone = |index| session.compute_alone(|| measure(index));
             Ok(store.run_side_by_side(following, session.threads(), alone)?)
@@ -79,7 +87,7 @@ impl KeepArgs {
         session: &Session,
         manifest: RunManifest,
         run: impl FnOnce(&mut Store<R>, &TerminalProgress<'_>) -> Result<(), CliError>,
-    ) -> Result<Store<R>, CliError> {
+    ) -> Result<Kept<R>, CliError> {
         let manifest = match self.shard {
             Some(shard) => manifest.with_shard(shard),
             None => manifest,
@@ -92,13 +100,14 @@ impl KeepArgs {
         };
         let measured = run(&mut store, &following);
         following.finish()?;
-        match measured {
-            Err(CliError::Interrupted(message)) => Err(CliError::Interrupted(match &self.out {
+        let interruption = match measured {
+            Err(CliError::Interrupted(message)) => Some(CliError::Interrupted(match &self.out {
                 Some(_) => format!("{message}; rerun the same command to resume"),
                 None => format!("{message}; results are saved only with --out DIR"),
             })),
-            measured => measured.map(|()| store),
-        }
+            measured => measured.map(|()| None)?,
+        };
+        Ok(Kept { store, interruption })
     }
 }
 

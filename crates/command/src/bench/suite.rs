@@ -12,7 +12,7 @@ use pushplan_bench::SolvedTask;
 use pushplan_bench::store::{Finished, Measured, RunManifest, Store};
 use pushplan_report::Document;
 
-use super::keep::{self, KeepArgs};
+use super::keep::{self, KeepArgs, Kept};
 
 /// Benchmark, defined by its arguments.
 pub trait Suite: Args {
@@ -111,12 +111,19 @@ impl<S: Suite> SuiteArgs<S> {
     /// writing results.
     pub fn run(&self, session: &Session) -> Result<(), CliError> {
         let Cases { manifest, measure } = self.suite.cases(&self.keep, session)?;
-        let store = match measure {
+        let Kept { store, interruption } = match measure {
             Measure::InTurn(measure) => self.keep.measure(session, manifest, measure)?,
             Measure::SideBySide(measure) => {
                 self.keep.measure_side_by_side(session, manifest, measure)?
             }
         };
+        if let Some(interruption) = interruption {
+            if !store.finished().is_empty() {
+                let document = S::document(&[store.into_parts()])?;
+                self.form.show_rest(session, &document, false)?;
+            }
+            return Err(interruption);
+        }
         let document = S::document(&[store.into_parts()])?;
         keep::show(self.form, session, &document, self.keep.out.as_deref())
     }

@@ -97,6 +97,7 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
         Judge::BuiltIn => None,
         Judge::Mujoco => Some(Python::with_mujoco()?),
     };
+    interrupt::watch();
     let mut replayed = Vec::new();
     for (path, file) in &mut files {
         file.task.robustness = args.robustness.unwrap_or(file.task.robustness);
@@ -119,7 +120,7 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
         code = worse(code, code_of(judged));
     }
     show(args, session, &documents)?;
-    failed.map_or(Ok(code), Err)
+    failed.map_or(Ok(interrupt::code(code)), Err)
 }
 
 /// Reads the plans, with the faults of all files.
@@ -174,8 +175,6 @@ fn opinions(
     python: &Python,
     replayed: &[Replayed],
 ) -> Result<Vec<Option<SecondOpinion>>, CliError> {
-    // From now on a signal ends the scripts, too.
-    interrupt::watch();
     let following = TerminalProgress::spinner(session, "replaying in MuJoCo");
     let found: Result<Vec<_>, CliError> = session.compute(|| {
         let each = replayed.par_iter().map(|Replayed { path, file, verdict }| {

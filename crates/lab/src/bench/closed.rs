@@ -71,7 +71,7 @@ impl RandomSuite {
         let mut world =
             SimulatedWorld::new(hidden.truth.clone()).pushed_with(hidden.task.robot.max_force);
         let runner = Runner::new(planner, library);
-        let ran = runner.run(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress);
+        let ran = runner.run_with(&mut trace, &mut world, &mut |_| Ok(()), &NoProgress);
         let seconds = began.elapsed().as_secs_f64();
         if let Err(ActError::Solve(error)) = ran {
             return Err(RandomError::Solve(error));

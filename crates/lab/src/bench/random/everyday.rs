@@ -237,7 +237,7 @@ fn rails(rng: &mut Pcg64) -> Scene {
     let can = pushed_by_hand(rng, Object::new("can", can)).at(far.x, far.y, 0.0);
     let puck = pushed_by_hand(rng, Object::new("puck", puck)).at(near.x, near.y, 0.0);
     let rail = |name, aside: f64| {
-        Obstacle::new(name, [0.3, 0.03, 0.06], Pose::new(0.42, round(near.y + aside, 1e4), 0.0))
+        Obstacle::cuboid(name, [0.3, 0.03, 0.06]).at(0.42, round(near.y + aside, 1e4), 0.0)
     };
     Scene::new([can, puck])
         .with_obstacle(rail("rail-1", apart))
@@ -252,8 +252,7 @@ fn blocked(rng: &mut Pcg64, crates: usize) -> Option<(Scene, Vec<Goal>)> {
         Vector::new(drawn(rng, [0.44, 0.56]), round(goal.y + drawn(rng, [-0.12, 0.12]), 1e3));
     let can = Object::new("can", Shape::Cylinder { radius, height: 0.1 });
     let mut objects = vec![pushed_by_hand(rng, can).at(start.x, start.y, 0.0)];
-    let wall =
-        Obstacle::new(WALL, [0.02, 0.34, 0.1], Pose::new(round(goal.x + 0.09, 1e3), goal.y, 0.0));
+    let wall = Obstacle::cuboid(WALL, [0.02, 0.34, 0.1]).at(round(goal.x + 0.09, 1e3), goal.y, 0.0);
     for k in 0..crates {
         let narrow = if k == 0 { 0.055 } else { 0.04 };
         let size = [drawn(rng, [narrow, 0.08]), drawn(rng, [narrow, 0.08]), 0.08];

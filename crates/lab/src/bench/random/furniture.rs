@@ -40,7 +40,7 @@ pub(super) fn door(rng: &mut Pcg64) -> (Scene, Vec<Goal>) {
         .at(x, y, heading);
     let hinge = JointKind::Revolute { at, limits: Some(Span::new(limits[0], limits[1])) };
     let size = [0.2, round(width + 0.06, 1e3), 0.15];
-    let cabinet = Obstacle::new("cabinet", size, Pose::new(round(front + 0.13, 1e3), middle, 0.0));
+    let cabinet = Obstacle::cuboid("cabinet", size).at(round(front + 0.13, 1e3), middle, 0.0);
     let scene = Scene::new([door]).with_mount(0, hinge).with_obstacle(cabinet);
     (scene, vec![Goal::of(0).facing(heading, AJAR)])
 }
@@ -78,9 +78,8 @@ pub(super) fn drawer(rng: &mut Pcg64) -> (Scene, Vec<Goal>) {
     let front = x - depth / 2.0 + 0.01;
     for (name, side) in [("left", 1.0), ("right", -1.0)] {
         let aside = round(y + side * (width / 2.0 + 0.015), 1e4);
-        let pose = Pose::new(round((front + back) / 2.0, 1e4), aside, 0.0);
-        scene =
-            scene.with_obstacle(Obstacle::new(name, [round(back - front, 1e4), 0.02, 0.12], pose));
+        let wall = Obstacle::cuboid(name, [round(back - front, 1e4), 0.02, 0.12]);
+        scene = scene.with_obstacle(wall.at(round((front + back) / 2.0, 1e4), aside, 0.0));
     }
     (scene.with_mount(0, slide), vec![goal])
 }
