@@ -123,10 +123,14 @@ function grid() {
     root.append(svg('rect', { x: left, y: top, width: px(w), height: px(h), class: 'table' }));
   }
   const [x, y] = map([0, 0]);
-  root.append(svg('circle', { cx: x, cy: y, r: 5, class: 'robot' }, svg('title', {}, 'robot')));
+  for (const body of task.stage.obstacles.filter((one) => one.base)) still(body.shape, body.at, 'base', body.name);
+  root.append(...robotMark(task.stage.obstacles, px, map));
   for (const region of task.stage.regions ?? []) still(region.shape, region.at, 'keep-out', region.name);
   for (const goal of task.stage.goals) {
     for (const area of goal.areas) still(area.shape, area.at, area.leave ? 'leave' : 'goal', goal.words);
+    const { objects } = task.stage;
+    const ends = goal.arc ? solidsAt(objects, goal.objects[0], swung(goal.arc, posed(objects[goal.objects[0]].at))) : [];
+    for (const [body, pose] of ends) root.append(outlined(body.shape, px, { transform: placedAt(pose), class: 'wanted' }));
     for (const mark of goalMarks(goal, px, map)) {
       mark.append(svg('title', {}, goal.words));
       root.append(mark);
@@ -197,21 +201,22 @@ function knob(thing) {
     svg('circle', { cx: x2, cy: y2, r: 6, class: 'knob', 'data-turn': thing.id }));
 }
 
+/** Draws tool and hand before and after every push, the final poses of objects, and the pushes. */
 function planShape() {
   const layer = svg('g', { class: 'overlay' });
+  const { tools = [], strokes = [], hand } = overlay.drawn ?? {};
+  strokes.forEach((stroke, k) => {
+    const tool = (pose, when) => toolShape(tools[stroke.tool], hand, px, { class: `tool ${when}`, transform: placedAt(posed(pose)) });
+    if (stroke.lowered) layer.append(tool(stroke.from, 'before'));
+    if (strokes[k + 1]?.lowered ?? true) layer.append(tool(stroke.to, 'after'));
+  });
   (overlay.ends?.poses ?? []).forEach((end, k) => {
     const body = task.stage.objects[k];
-    if (body) layer.append(outlined(body.shape, px, { transform: placedAt([...end.position, end.heading]), class: 'end-of-plan' }));
+    if (!body) return;
+    const transform = placedAt([...end.position, end.heading]);
+    for (const { shape } of [body, ...(body.more ?? [])]) layer.append(outlined(shape, px, { transform, class: 'end-of-plan' }));
   });
-  (overlay.pushes ?? []).forEach(({ start, direction, length }, k) => {
-    const [from, to] = [start, placed([...start, direction], [length, 0])].map(map);
-    layer.append(
-      svg('line', { x1: from[0], y1: from[1], x2: to[0], y2: to[1], class: 'push' }),
-      svg('path', { d: 'M-9-5l9 5-9 5', class: 'push head', transform: `translate(${to.join(' ')}) rotate(${degrees(direction)})` }),
-      svg('circle', { cx: from[0], cy: from[1], r: 9, class: 'push-dot' }),
-      svg('text', { x: from[0], y: from[1] + 4, class: 'push-number' }, `${k + 1}`),
-    );
-  });
+  layer.append(...strokes.flatMap((stroke, k) => strokeShapes(stroke, k, tools, map)));
   return layer;
 }
 
