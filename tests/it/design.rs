@@ -49,7 +49,7 @@ fn a_tool_is_proposed_that_passes_where_no_shipped_one_does() {
     let read = Tool::parse(&tool.to_yaml().unwrap(), "tool.yaml").unwrap();
     assert_eq!(read, **tool);
 
-    // The page has the sizes of the tool, and what every existing tool reaches.
+    // The page has the sizes of the tool, and a row for every existing tool.
     let best = design.best().best().unwrap();
     let replays = best.replays(&task, &Situation::stated(&task.scene));
     let page = design_page(&task, &design, &replays, &|_| Recipe::default(), PageView::Above);

@@ -16,6 +16,8 @@ let high = [1, 1];
 let drag = null;
 /** The last plan: pushes and final poses of objects. */
 let overlay = null;
+/** Whether nothing was dragged or pressed since the view was fitted. */
+let fresh = false;
 let choose = () => {};
 
 export const chosen = { id: 'goal-0' };
@@ -57,22 +59,28 @@ export function begin(whenChosen) {
   }).observe(byId('table'));
 }
 
-/** Shows the pushes and final poses of a plan, or none. */
+/** Shows tools, pushes and final poses of a plan, or none. The view of an unchanged task grows to the plan. */
 export function show(summary) {
   overlay = summary;
-  draw();
+  if (summary && fresh) fit();
+  else draw();
 }
 
 export function fit() {
+  fresh = true;
   low = [0, 0];
   high = [0, 0];
+  const add = (at, room) => {
+    low = low.map((value, k) => Math.min(value, at[k] - room));
+    high = high.map((value, k) => Math.max(value, at[k] + room));
+  };
   for (const { kind, pose, body } of things()) {
     const room = body?.shape ? radius(body.shape) : body?.tolerance ? body.tolerance * LENGTH : 0;
-    if (kind === 'reach' && pose[0] > 1.5) continue;
-    for (const k of [0, 1]) {
-      low[k] = Math.min(low[k], pose[k] - room);
-      high[k] = Math.max(high[k], pose[k] + room);
-    }
+    if (kind !== 'reach' || pose[0] <= 1.5) add(pose, room);
+  }
+  const { tools, strokes = [] } = overlay?.drawn ?? {};
+  for (const { tool, from, to } of strokes) for (const end of [posed(from), posed(to)]) {
+    for (const { at, shape } of tools[tool].parts) add(placed(end, posed(at)), radius(shape));
   }
   // Room for drags to both sides.
   low = [low[0] - MARGIN, Math.min(low[1] - MARGIN, -0.4)];
@@ -221,6 +229,7 @@ function planShape() {
 }
 
 function grab(event) {
+  fresh = false;
   const turning = event.target.closest('[data-turn]')?.dataset.turn;
   const id = turning ?? event.target.closest('[data-id]')?.dataset.id;
   const thing = id && things().find((one) => one.id === id);
@@ -268,6 +277,7 @@ function attempt(edits, steady) {
 }
 
 function press(event) {
+  fresh = false;
   const thing = things().find(({ id }) => id === event.target.dataset?.id);
   if (!thing || event.ctrlKey || event.metaKey || event.altKey) return;
   const far = event.shiftKey ? 0.001 : 0.01;

@@ -33,8 +33,15 @@ pub fn solve(text: &str, file: &str, example: &str, effort: &str) -> Result<Solv
     let library = library()?;
     let task = parse_task(text, file, library).map_err(|faults| faults.to_string())?;
     let planner = planner(effort)?;
-    let solution =
-        planner.solve_with(&task, library, &WorkerProgress).map_err(|error| error.to_string())?;
+    let solution = match effort {
+        // Without the cause of a failure, which takes longer than the look itself.
+        FIRST_LOOK => {
+            let situation = Situation::stated(&task.scene);
+            planner.solve_from(&situation, &task, library, &WorkerProgress)
+        }
+        _ => planner.solve_with(&task, library, &WorkerProgress),
+    };
+    let solution = solution.map_err(|error| error.to_string())?;
     let source = match example {
         "" => TaskSource::File(file.to_owned()),
         name => TaskSource::Example(name.to_owned()),

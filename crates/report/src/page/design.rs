@@ -25,8 +25,8 @@ const COLUMNS: [(&str, Align); 6] = [
     ("result", Align::Left),
 ];
 
-/// Returns the page of a design: the plan with the proposed tool, the sizes of that tool, and what
-/// every existing tool reaches. `nominal` and `recipe` are as for
+/// Returns the page of a design: the plan with the proposed tool, the sizes of that tool, and the
+/// best plan of every existing tool. `nominal` and `recipe` are as for
 /// [`solution_page`](super::solution_page).
 pub fn design_page(
     task: &Task,

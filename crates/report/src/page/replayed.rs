@@ -256,8 +256,9 @@ fn strokes_of(
     motions.iter().flat_map(own).collect()
 }
 
-/// Returns tools, strokes and hand of a plan as JSON, in the [units](super::units) of a page, for
-/// drawing outside of it. A plan with lever-ups has no strokes.
+/// Returns tools, strokes and hand of a plan as JSON, for drawing outside the page: lengths in
+/// hundredths of a millimetre, angles in ten-thousandths of a radian. A plan with lever-ups has no
+/// strokes.
 pub fn plan_stage(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Json {
     let index = |name: &str| tools.iter().position(|tool| tool.name == name).unwrap_or(0);
     let strokes = match plan.levers() {
