@@ -190,11 +190,10 @@ impl<'a> Run<'a> {
     /// Adds warnings for violations that cannot occur on a real table.
     fn doubt(&mut self) {
         let Some(stroke) = self.job.motion.slide().strokes.last() else { return };
-        let obstacles = &self.scene.obstacles;
         let moved = |k: usize| self.state.poses[k] != self.job.start.poses[k];
         let name = |body: Body| match body {
             Body::Object(k) => self.scene.thing_name(k).to_owned(),
-            Body::Obstacle(k) => obstacles[k].name.clone(),
+            Body::Obstacle(k) => self.scene.obstacles[k].name.clone(),
             Body::Part(k) => {
                 let tool = &self.job.motion.slide().tool;
                 format!("{}/{}", tool.name, tool.outline()[k].name)
@@ -211,7 +210,6 @@ impl<'a> Run<'a> {
             depth,
         });
         let loose = loosest_joint(self.whole, &self.state, moved);
-        // The solids of a compound object are one body.
         let loose = loose.filter(|([a, b], _)| self.scene.thing(*a) != self.scene.thing(*b));
         let loose = loose.map(|(between, distance)| Warning::LooseJoint {
             between: between.map(|k| name(Body::Object(k))),
