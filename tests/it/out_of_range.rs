@@ -53,23 +53,6 @@ fn inside_its_range_the_network_predicts_whatever_is_asked_for() {
 }
 
 #[test]
-fn solids_of_a_compound_object_are_warned_of_as_one() {
-    let wrench = Object::cuboid("wrench", [0.06, 0.06, 0.5]).mass(0.5).at(0.06, 0.01, 0.0);
-    let jaw = Object::cuboid("wrench/jaw", [0.06, 0.06, 0.9]).mass(0.3);
-    let scene = Scene::new([wrench]).with_part(0, jaw, Pose::new(0.06, 0.0, 0.0)).on_table(0.4);
-    let warnings = run(OutOfRange::Warn, &scene).warnings;
-    let height = |warning: &Warning| match warning {
-        Warning::OutsideRange { of, quantity: Quantity::Height, value, .. } => {
-            Some((of.clone(), *value))
-        }
-        _ => None,
-    };
-    let heights: Vec<(String, f64)> = warnings.iter().filter_map(height).collect();
-    assert_eq!(heights, [("wrench".to_owned(), 0.9)], "the value farthest from the range");
-    assert!(!format!("{warnings:?}").contains("wrench/jaw"), "{warnings:?}");
-}
-
-#[test]
 fn outside_of_it_simulation_takes_its_place_or_nothing_does() {
     let scene = scene(500.0);
     let motion = job(&scene).motion;

@@ -81,8 +81,8 @@ pub fn replay(
     })
 }
 
-/// Returns the height (metres) to which the edge of the lever-up in progress, or of the last one, is
-/// raised in every frame. From the end of the rotation on, it is the height that tables state.
+/// Returns the height (metres) to which the edge of the lever-up in progress, or of the last one,
+/// is raised in every frame. From the end of the rotation on, it is the height that tables state.
 fn raised(
     task: &Task,
     plan: &Plan,
