@@ -29,7 +29,7 @@ pub const SCRIPT: &str = concat!(
 );
 
 /// Script of the 3-D view, drawn with three.js.
-pub const SOLID: &str = include_str!("script/solid.js");
+pub const SOLID: &str = concat!(include_str!("script/names.js"), include_str!("script/solid.js"));
 
 /// Python script that plays exported plans in MuJoCo.
 pub const REPLAY: &str = concat!(

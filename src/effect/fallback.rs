@@ -196,7 +196,7 @@ pub fn consequence(scene: &Scene, jobs: &[Job], predicted: &State) -> Option<War
     let simulated = run.outcome();
     let apart = |k: usize| (simulated.poses[k].position - predicted.poses[k].position).norm();
     let far = (0..scene.objects.len()).max_by(|&a, &b| apart(a).total_cmp(&apart(b)))?;
-    let object = scene.objects[far].name.clone();
+    let object = scene.thing_name(far).to_owned();
     (apart(far) >= SAME).then(|| Warning::Differs { object, distance: apart(far) })
 }
 

@@ -133,14 +133,18 @@ impl Network {
     fn doubted(&self, scene: &Scene, mut trajectory: Trajectory) -> Trajectory {
         let Some(doubt) = self.forward.doubts() else { return trajectory };
         let Trajectory { spreads, warnings, .. } = &mut trajectory;
-        let all = scene.objects.iter().zip(spreads);
+        let all = spreads.iter_mut().enumerate();
         for (object, spread) in all.filter(|(_, spread)| spread.position > 0.0) {
             *spread += doubt.floor();
             // The noise of a fitted table is independent of the network's error.
             spread.position = spread.position.hypot(self.noise());
             let within = spread.within_90().position;
             if within > Spread::DOUBTFUL {
-                warnings.push(Warning::Doubtful { object: object.name.clone(), within });
+                let object = scene.thing_name(object).to_owned();
+                match warnings.iter_mut().find_map(|warning| warning.doubt_of(&object)) {
+                    Some(known) => *known = known.max(within),
+                    None => warnings.push(Warning::Doubtful { object, within }),
+                }
             }
         }
         trajectory

@@ -97,7 +97,7 @@ impl<'a> ObjectRules<'a> {
             };
             let holds = |region: &&Region| region.holds(&footprint, pose, margin(region) - error);
             let region = self.regions().find(holds)?;
-            let (object, region) = (object.name.clone(), region.name.clone());
+            let (object, region) = (self.scene.thing_name(k).to_owned(), region.name.clone());
             Some(Warning::KeptOut { object, region })
         })
     }
@@ -118,7 +118,7 @@ impl<'a> ObjectRules<'a> {
                     (pose.point(corner.own) - corner.there.xy()).norm()
                 }),
             }?;
-            let object = self.scene.objects[kept.object].name.clone();
+            let object = self.scene.thing_name(kept.object).to_owned();
             Some(Warning::NotKept { object, moved, within: kept.within })
         })
     }

@@ -26,14 +26,15 @@ impl Ranges {
         let mut found = Vec::new();
         let mut check = |of: &dyn Fn() -> String, quantity: Quantity, value: f64, span: Span| {
             if !span.contains(value) {
-                found.push(Warning::OutsideRange {
-                    of: of(),
-                    quantity,
-                    // Files cannot hold infinite numbers.
-                    value: value.min(f64::MAX),
-                    low: span.low,
-                    high: span.high,
-                });
+                // Files cannot hold infinite numbers.
+                let (of, value) = (of(), value.min(f64::MAX));
+                let Span { low, high } = span;
+                let own = Warning::OutsideRange { of, quantity, value, low, high };
+                match found.iter_mut().find(|known: &&mut Warning| known.is_of_body_of(&own)) {
+                    Some(known) if own.excess() > known.excess() => *known = own,
+                    Some(_) => {}
+                    None => found.push(own),
+                }
             }
         };
         let (whole, push) = (|| "scene".to_owned(), || "push".to_owned());
@@ -45,7 +46,7 @@ impl Ranges {
         }
         check(&|| "table".to_owned(), Quantity::Friction, physics.table_friction, self.friction);
         for &index in objects {
-            let name = || scene.objects[index].name.clone();
+            let name = || scene.thing_name(index).to_owned();
             if !scene.objects[index].is_part() {
                 check(&name, Quantity::Mass, scene.mass_in(physics, index), self.mass);
             }
@@ -76,7 +77,7 @@ impl Ranges {
             }
         }
         for pair in physics.pairs.iter().filter(|pair| objects.contains(&pair.object)) {
-            let of = || format!("a pair of {}", scene.objects[pair.object].name);
+            let of = || format!("a pair of {}", scene.thing_name(pair.object));
             check(&of, Quantity::Friction, pair.coefficient, self.friction);
         }
         let masses = things.iter().map(|&thing| scene.mass_in(physics, thing));

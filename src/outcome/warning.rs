@@ -6,6 +6,7 @@ use super::{LeverFault, PushFault};
 use crate::scene::planar_only;
 use crate::scene::{ArmFault, ModelSpec, Quantity, Unknowns};
 
+mod merged;
 mod shown;
 mod words;
 

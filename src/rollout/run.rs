@@ -181,7 +181,7 @@ impl<'a> Run<'a> {
             return;
         }
         for object in motion.set_down_on(self.scene, &self.state, self.stroke) {
-            let object = self.scene.objects[object].name.clone();
+            let object = self.scene.thing_name(object).to_owned();
             let stroke = self.stroke;
             self.trajectory.warnings.push(Warning::SetDownOn { object, stroke });
         }
@@ -190,11 +190,10 @@ impl<'a> Run<'a> {
     /// Adds warnings for violations that cannot occur on a real table.
     fn doubt(&mut self) {
         let Some(stroke) = self.job.motion.slide().strokes.last() else { return };
-        let Scene { objects, obstacles, .. } = self.scene;
         let moved = |k: usize| self.state.poses[k] != self.job.start.poses[k];
         let name = |body: Body| match body {
-            Body::Object(k) => objects[k].name.clone(),
-            Body::Obstacle(k) => obstacles[k].name.clone(),
+            Body::Object(k) => self.scene.thing_name(k).to_owned(),
+            Body::Obstacle(k) => self.scene.obstacles[k].name.clone(),
             Body::Part(k) => {
                 let tool = &self.job.motion.slide().tool;
                 format!("{}/{}", tool.name, tool.outline()[k].name)
@@ -202,7 +201,7 @@ impl<'a> Run<'a> {
         };
         self.depths.note_all(self.whole, &self.state, &stroke.to, moved);
         let jam = self.depths.jam.map(|(object, with, depth)| Warning::Jammed {
-            object: objects[object].name.clone(),
+            object: name(Body::Object(object)),
             against: name(with),
             depth,
         });
@@ -211,12 +210,13 @@ impl<'a> Run<'a> {
             depth,
         });
         let loose = loosest_joint(self.whole, &self.state, moved);
+        let loose = loose.filter(|([a, b], _)| self.scene.thing(*a) != self.scene.thing(*b));
         let loose = loose.map(|(between, distance)| Warning::LooseJoint {
             between: between.map(|k| name(Body::Object(k))),
             distance,
         });
         let pressed = self.pressing.found.map(|(object, between)| Warning::Pressed {
-            object: objects[object].name.clone(),
+            object: name(Body::Object(object)),
             between: between.map(name),
         });
         self.trajectory.warnings.extend(pressed);

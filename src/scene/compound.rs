@@ -76,6 +76,11 @@ impl Scene {
         self.objects[index].whole.map_or(index, |whole| whole.object)
     }
 
+    /// Returns the name of the object to which solid `index` belongs.
+    pub fn thing_name(&self, index: usize) -> &str {
+        &self.objects[self.thing(index)].name
+    }
+
     /// Returns the mass of an object with all its parts, kg.
     pub fn mass(&self, object: usize) -> f64 {
         let parts: f64 = self.parts_of(object).map(|k| self.objects[k].mass).sum();

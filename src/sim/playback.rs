@@ -74,7 +74,7 @@ pub(super) fn playback<W: World>(
         }
         if index == 0 || lifted {
             let below = motion.set_down_on(scene, &recorder.last().state, index);
-            let name = |object: usize| scene.objects[object].name.clone();
+            let name = |object: usize| scene.thing_name(object).to_owned();
             let warnings: Vec<Warning> = below
                 .map(|object| Warning::SetDownOn { object: name(object), stroke: index })
                 .collect();
@@ -186,11 +186,12 @@ fn hurry<W: World>(world: &W, frame: &FrameStep) -> f64 {
 /// Returns the warning about a jammed object.
 fn jammed(scene: &Scene, motion: &ToolMotion, jam: Overlap) -> Warning {
     let against = match jam.with {
-        Body::Object(index) => scene.objects[index].name.clone(),
+        Body::Object(index) => scene.thing_name(index).to_owned(),
         Body::Obstacle(index) => scene.obstacles[index].name.clone(),
         Body::Part(index) => format!("{}/{}", motion.tool.name, motion.tool.outline()[index].name),
     };
-    Warning::Jammed { object: scene.objects[jam.object].name.clone(), against, depth: jam.depth }
+    let object = scene.thing_name(jam.object).to_owned();
+    Warning::Jammed { object, against, depth: jam.depth }
 }
 
 /// A recorder of the growing trajectory.

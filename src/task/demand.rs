@@ -18,6 +18,7 @@ mod out_of;
 mod outside;
 mod place;
 mod raised;
+mod swing;
 mod words;
 
 use serde::{Deserialize, Serialize};
@@ -35,7 +36,7 @@ pub use flipped::{Ending, Flipped};
 pub use gap::Gap;
 pub use group::Group;
 pub use heading::Facing;
-pub use mark::{Mark, ShownGoal};
+pub use mark::{Mark, ShownGoal, Swing};
 pub use out_of::OutOfArea;
 pub use outside::Outside;
 pub use place::AtPlace;

@@ -252,6 +252,11 @@ impl Goal {
         others.into_iter().chain(poses).map(&mut phrase).collect::<Vec<_>>().join(", ")
     }
 
+    /// Returns `true` if a blade must lift an edge of the object.
+    pub fn raises(&self) -> bool {
+        self.demands.iter().any(|demand| matches!(demand, Demand::Raised(_)))
+    }
+
     /// Returns the check that judges exported scenes.
     pub fn check(&self, scene: &Scene) -> Check {
         let of = self.demands.iter().map(|demand| demand.kind().check(self.object, scene));

@@ -23,7 +23,7 @@ pub use arm::{ArmReader, ArmRefusal, ArmSource, Followed, RobotArm, StatedArm, r
 pub use definition::{Task, ToolChoice};
 pub use demand::{
     Area, AtPlace, Check, Coverage, Demand, Edge, End, Ending, Facing, Fall, Flipped, Gap, InArea,
-    Kind, Lift, Mark, Outside, Quantity, Raised, ShownGoal,
+    Kind, Lift, Mark, Outside, Quantity, Raised, ShownGoal, Swing,
 };
 pub use goal::{Aspect, Goal};
 pub use job::Job;

@@ -7,9 +7,11 @@ use rayon::ThreadPoolBuilder;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
+use pushplan::Situation;
 use pushplan::progress::NoProgress;
 use pushplan::{Effort, PlanStatus, Planner, Task, Tool, ToolLibrary};
 use pushplan_design::{Design, DesignSettings, design};
+use pushplan_report::{PageView, Recipe, design_page};
 
 use crate::program::{run, stderr};
 
@@ -46,6 +48,18 @@ fn a_tool_is_proposed_that_passes_where_no_shipped_one_does() {
     assert_eq!(tool.outline().len(), 1, "{}", tool.to_yaml().unwrap());
     let read = Tool::parse(&tool.to_yaml().unwrap(), "tool.yaml").unwrap();
     assert_eq!(read, **tool);
+
+    // The page has the sizes of the tool, and a row for every existing tool.
+    let best = design.best().best().unwrap();
+    let replays = best.replays(&task, &Situation::stated(&task.scene));
+    let page = design_page(&task, &design, &replays, &|_| Recipe::default(), PageView::Above);
+    let data = page.split("id=\"data\">").nth(1).and_then(|rest| rest.split("</script>").next());
+    let data: Json = serde_json::from_str(data.unwrap()).unwrap();
+    assert_eq!(data["found"][0]["rows"].as_array().unwrap().len(), tool.parts().len());
+    let rows = data["found"][1]["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 1 + design.known.tools.len());
+    assert_eq!(rows[0][0], format!("{} (proposed)", tool.name));
+    assert!(data["description"].as_str().unwrap().contains("existing tools"), "{}", data["task"]);
 
     // The tool read back from its file gives the same result.
     let library = ToolLibrary::embedded().unwrap().with(Arc::new(read)).unwrap();

@@ -12,7 +12,7 @@ const PAUSE = 300;
 /** Texts of the shipped tasks by name. */
 const shipped = new Map();
 let whole = null; // the request for a plan with its report
-let last = null; // the answer that is shown
+let drafting = null; // the request for a draft with the usual budgets
 let paged = null; // the answer whose report is shown
 let version = 0;
 
@@ -39,8 +39,8 @@ async function main() {
     byId('plan').disabled = !task.sound;
     byId('example').value = exampleOf(task.text) ?? '';
     keepLink();
-    age();
-    if (from !== 'load' && byId('live').checked && task.sound) draft();
+    forget();
+    if (byId('live').checked && task.sound) draft();
   });
 
   /** Returns a request for the present task. */
@@ -50,13 +50,23 @@ async function main() {
     return { text: task.text, file, example, version, since: performance.now(), ...more };
   };
 
-  function draft() {
-    const own = wish({ effort: 'draft', whole: false });
+  /** Plans with few budgets, and then with the usual ones of a draft. */
+  function draft(effort = 'first look') {
+    const own = wish({ effort, whole: false });
+    const first = effort !== 'draft';
+    if (!first) drafting = own;
     own.done = ({ answer, broken }) => {
-      // Answers may arrive out of order; the answer for the newest task is kept.
-      if (broken || answer.fault || (last && last.version >= own.version)) return;
-      take({ ...answer, version: own.version, effort: own.effort, took: performance.now() - own.since });
+      if (!first) drafting = null;
+      // Only the answer for the present task is shown.
+      if (own.version !== version) return;
+      const found = !broken && !answer.fault;
+      // A first look that finds nothing proves nothing.
+      if (found && (!first || answer.summary.status === 'solved')) {
+        take({ ...answer, version: own.version, effort, took: performance.now() - own.since });
+      } else if (!first) headline(answer?.fault ?? `the draft failed: ${broken}`, 'bad');
+      if (first && !whole) draft('draft');
     };
+    if (first) headline('planning …', 'waiting');
     planner.planLive(own);
   }
 
@@ -73,11 +83,13 @@ async function main() {
     };
     own.done = ({ answer, broken }) => {
       ended();
+      if (broken || answer.fault) headline('');
       if (broken) trouble(`The planner crashed: ${broken}. This is a bug; please report it with the link in the address bar.`);
       else if (answer.fault) trouble(answer.fault);
       else take({ ...answer, version: own.version, effort: own.effort, took: performance.now() - own.since, whole: true });
     };
     trouble('');
+    headline('planning …', 'waiting');
     for (const id of ['cancel', 'progress']) byId(id).hidden = false;
     byId('progress').removeAttribute('value');
     byId('stage-of-work').textContent = 'planning';
@@ -90,13 +102,18 @@ async function main() {
     byId('stage-of-work').textContent = '';
   }
 
-  /** Shows an answer. */
+  function headline(text, className = '') {
+    byId('answer').textContent = text;
+    byId('answer').className = className;
+  }
+
+  /** Shows an answer; one for an older task only as a report. */
   function take(answer) {
-    last = answer;
     const { summary } = answer;
-    table.show(summary);
-    byId('answer').textContent = `${summary.headline} (${answer.effort}, ${(answer.took / 1000).toFixed(2)} s)`;
-    byId('answer').className = summary.status === 'solved' ? '' : 'bad';
+    if (answer.version === version) {
+      table.show(summary);
+      headline(`${summary.headline} (${answer.effort}, ${(answer.took / 1000).toFixed(2)} s)`, summary.status === 'solved' ? '' : 'bad');
+    }
     if (answer.whole) {
       paged = answer;
       byId('words').hidden = false;
@@ -109,11 +126,17 @@ async function main() {
     age();
   }
 
-  /** Marks results that are older than the present task. */
+  /** Removes the answer for an older task, and ends a draft for it. */
+  function forget() {
+    if (drafting) planner.cancel(drafting);
+    drafting = null;
+    table.show(null);
+    headline('');
+    age();
+  }
+
+  /** Marks a report of an older task. */
   function age() {
-    const old = Boolean(last) && last.version !== version;
-    byId('answer').classList.toggle('old', old);
-    byId('table').classList.toggle('stale', old);
     byId('page').classList.toggle('stale', Boolean(paged) && paged.version !== version);
   }
 
@@ -125,12 +148,11 @@ async function main() {
   byId('cancel').addEventListener('click', () => {
     planner.cancel(whole);
     ended();
-    byId('answer').textContent = 'cancelled';
+    headline('cancelled');
   });
   byId('example').addEventListener('change', ({ target }) => {
     write(shipped.get(target.value), 'load');
     table.chosen.id = 'goal-0';
-    table.show(null);
     table.fit();
     form.drawForm();
   });
@@ -176,7 +198,6 @@ async function open(table, form) {
   const text = found.text ?? shipped.get(found.example ?? FIRST) ?? shipped.get(FIRST);
   if (text === task.text) return;
   write(text, 'load');
-  table.show(null);
   table.fit();
   form.drawForm();
 }

@@ -16,6 +16,8 @@ let high = [1, 1];
 let drag = null;
 /** The last plan: pushes and final poses of objects. */
 let overlay = null;
+/** Whether nothing was dragged or pressed since the view was fitted. */
+let fresh = false;
 let choose = () => {};
 
 export const chosen = { id: 'goal-0' };
@@ -57,22 +59,28 @@ export function begin(whenChosen) {
   }).observe(byId('table'));
 }
 
-/** Shows the pushes and final poses of a plan, or none. */
+/** Shows tools, pushes and final poses of a plan, or none. The view of an unchanged task grows to the plan. */
 export function show(summary) {
   overlay = summary;
-  draw();
+  if (summary && fresh) fit();
+  else draw();
 }
 
 export function fit() {
+  fresh = true;
   low = [0, 0];
   high = [0, 0];
+  const add = (at, room) => {
+    low = low.map((value, k) => Math.min(value, at[k] - room));
+    high = high.map((value, k) => Math.max(value, at[k] + room));
+  };
   for (const { kind, pose, body } of things()) {
     const room = body?.shape ? radius(body.shape) : body?.tolerance ? body.tolerance * LENGTH : 0;
-    if (kind === 'reach' && pose[0] > 1.5) continue;
-    for (const k of [0, 1]) {
-      low[k] = Math.min(low[k], pose[k] - room);
-      high[k] = Math.max(high[k], pose[k] + room);
-    }
+    if (kind !== 'reach' || pose[0] <= 1.5) add(pose, room);
+  }
+  const { tools, strokes = [] } = overlay?.drawn ?? {};
+  for (const { tool, from, to } of strokes) for (const end of [posed(from), posed(to)]) {
+    for (const { at, shape } of tools[tool].parts) add(placed(end, posed(at)), radius(shape));
   }
   // Room for drags to both sides.
   low = [low[0] - MARGIN, Math.min(low[1] - MARGIN, -0.4)];
@@ -123,10 +131,14 @@ function grid() {
     root.append(svg('rect', { x: left, y: top, width: px(w), height: px(h), class: 'table' }));
   }
   const [x, y] = map([0, 0]);
-  root.append(svg('circle', { cx: x, cy: y, r: 5, class: 'robot' }, svg('title', {}, 'robot')));
+  for (const body of task.stage.obstacles.filter((one) => one.base)) still(body.shape, body.at, 'base', body.name);
+  root.append(...robotMark(task.stage.obstacles, px, map));
   for (const region of task.stage.regions ?? []) still(region.shape, region.at, 'keep-out', region.name);
   for (const goal of task.stage.goals) {
     for (const area of goal.areas) still(area.shape, area.at, area.leave ? 'leave' : 'goal', goal.words);
+    const { objects } = task.stage;
+    const ends = goal.arc ? solidsAt(objects, goal.objects[0], swung(goal.arc, posed(objects[goal.objects[0]].at))) : [];
+    for (const [body, pose] of ends) root.append(outlined(body.shape, px, { transform: placedAt(pose), class: 'wanted' }));
     for (const mark of goalMarks(goal, px, map)) {
       mark.append(svg('title', {}, goal.words));
       root.append(mark);
@@ -197,25 +209,27 @@ function knob(thing) {
     svg('circle', { cx: x2, cy: y2, r: 6, class: 'knob', 'data-turn': thing.id }));
 }
 
+/** Draws tool and hand before and after every push, the final poses of objects, and the pushes. */
 function planShape() {
   const layer = svg('g', { class: 'overlay' });
+  const { tools = [], strokes = [], hand } = overlay.drawn ?? {};
+  strokes.forEach((stroke, k) => {
+    const tool = (pose, when) => toolShape(tools[stroke.tool], hand, px, { class: `tool ${when}`, transform: placedAt(posed(pose)) });
+    if (stroke.lowered) layer.append(tool(stroke.from, 'before'));
+    if (strokes[k + 1]?.lowered ?? true) layer.append(tool(stroke.to, 'after'));
+  });
   (overlay.ends?.poses ?? []).forEach((end, k) => {
     const body = task.stage.objects[k];
-    if (body) layer.append(outlined(body.shape, px, { transform: placedAt([...end.position, end.heading]), class: 'end-of-plan' }));
+    if (!body) return;
+    const transform = placedAt([...end.position, end.heading]);
+    for (const { shape } of [body, ...(body.more ?? [])]) layer.append(outlined(shape, px, { transform, class: 'end-of-plan' }));
   });
-  (overlay.pushes ?? []).forEach(({ start, direction, length }, k) => {
-    const [from, to] = [start, placed([...start, direction], [length, 0])].map(map);
-    layer.append(
-      svg('line', { x1: from[0], y1: from[1], x2: to[0], y2: to[1], class: 'push' }),
-      svg('path', { d: 'M-9-5l9 5-9 5', class: 'push head', transform: `translate(${to.join(' ')}) rotate(${degrees(direction)})` }),
-      svg('circle', { cx: from[0], cy: from[1], r: 9, class: 'push-dot' }),
-      svg('text', { x: from[0], y: from[1] + 4, class: 'push-number' }, `${k + 1}`),
-    );
-  });
+  layer.append(...strokes.flatMap((stroke, k) => strokeShapes(stroke, k, tools, map)));
   return layer;
 }
 
 function grab(event) {
+  fresh = false;
   const turning = event.target.closest('[data-turn]')?.dataset.turn;
   const id = turning ?? event.target.closest('[data-id]')?.dataset.id;
   const thing = id && things().find((one) => one.id === id);
@@ -263,6 +277,7 @@ function attempt(edits, steady) {
 }
 
 function press(event) {
+  fresh = false;
   const thing = things().find(({ id }) => id === event.target.dataset?.id);
   if (!thing || event.ctrlKey || event.metaKey || event.altKey) return;
   const far = event.shiftKey ? 0.001 : 0.01;

@@ -35,7 +35,7 @@ async function main([folder, what = 'all', ...words]) {
   const browser = await chromium.launch({ executablePath, args: ['--no-sandbox', '--disable-gpu'] });
   let wrong = [];
   try {
-    if (what !== 'tasks') wrong = wrong.concat(await usedAsPeopleDo(browser, address));
+    if (what !== 'tasks') wrong = wrong.concat(await usedAsPeopleDo(browser, address, path.resolve(folder)));
     if (what !== 'page') wrong = wrong.concat(await tasks(browser, address, words));
   } finally {
     await browser.close();

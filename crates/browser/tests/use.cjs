@@ -30,7 +30,17 @@ async function drag(page, id, by, steps = 4) {
   await page.mouse.up();
 }
 
-async function usedAsPeopleDo(browser, address) {
+/** Returns the message of the page if its file is opened. */
+async function openedAsFile(browser, folder) {
+  const page = await browser.newPage();
+  await page.goto(require('node:url').pathToFileURL(`${folder}/index.html`).href);
+  await page.waitForTimeout(500);
+  const words = await page.locator('#trouble').textContent();
+  await page.close();
+  return words;
+}
+
+async function usedAsPeopleDo(browser, address, folder) {
   const wrong = [];
   const check = (holds, what) => {
     console.log(`${holds ? ' ' : '!'} ${what}`);
@@ -46,16 +56,32 @@ async function usedAsPeopleDo(browser, address) {
   }
   check(median(times) <= READY, `ready in ${median(times)} ms, median of ${times.length}`);
 
+  // On opening, the first task is drafted, with tool, hand, final poses and base.
+  const drafted = (own) => own.waitForFunction(() => /\(draft, /.test(document.getElementById('answer').textContent), null, { timeout: 60000 });
+  await drafted(page);
+  for (const part of ['.tool.before .fill', '.tool.after .hand', '.end-of-plan', '.base']) {
+    check((await page.locator(`#table ${part}`).count()) > 0, `the first draft shows ${part}`);
+  }
+  const told = await page.evaluate(() => {
+    const goal = document.querySelector('[data-id="goal-0"]');
+    goal.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowUp', bubbles: true }));
+    return [document.getElementById('answer').textContent, document.querySelectorAll('#table .push').length];
+  });
+  check(told[0] === 'planning …' && told[1] === 0, `an edit removes the old answer: ${told}`);
+  await page.locator('#undo').click();
+
   // Pointer: the file is updated, its comments are kept, and a draft is planned.
   const before = await text(page);
   await drag(page, 'goal-0', [40, 20]);
   const after = await text(page);
   check(after !== before && after.split('\n').length === before.split('\n').length, 'a drag changes numbers alone');
   check(before.split('\n').filter((line, k) => line !== after.split('\n')[k]).length === 1, 'a drag changes one line');
-  await page.waitForFunction(() => /draft, /.test(document.getElementById('answer').textContent));
+  await drafted(page);
   check((await page.locator('#table .push').count()) > 0, 'a draft is drawn on the table');
   await page.locator('#undo').click();
   check((await text(page)) === before, 'undo brings the text back');
+
+  check(/python3 -m http.server/.test(await openedAsFile(browser, folder)), 'opened as a file, the page states how to serve it');
 
   // Keyboard, and the description of the item.
   await page.locator('[data-id="goal-0"]').focus();
@@ -120,7 +146,8 @@ async function usedAsPeopleDo(browser, address) {
   const latencies = [];
   for (const name of await page.locator('#example option').evaluateAll((all) => all.map((one) => one.value).filter(Boolean))) {
     await page.locator('#example').selectOption(name);
-    await page.waitForTimeout(50);
+    // The draft of the task itself comes first.
+    await drafted(page);
     const goal = page.locator('[data-id="goal-0"]');
     if (!(await goal.count())) continue;
     await goal.focus();
@@ -128,7 +155,7 @@ async function usedAsPeopleDo(browser, address) {
       const since = performance.now();
       const answer = document.getElementById('answer');
       const observer = new MutationObserver(() => {
-        if (!/draft, /.test(answer.textContent) || answer.classList.contains('old')) return;
+        if (!/\((first look|draft), /.test(answer.textContent)) return;
         observer.disconnect();
         resolve(performance.now() - since);
       });
@@ -138,6 +165,7 @@ async function usedAsPeopleDo(browser, address) {
       setTimeout(() => { observer.disconnect(); resolve(Infinity); }, 20000);
     }));
     latencies.push([name, took]);
+    await drafted(page);
   }
   console.log(latencies.map(([name, took]) => `    ${name.padEnd(24)} ${took.toFixed(0).padStart(6)} ms`).join('\n'));
   check(median(latencies.map(([, took]) => took)) <= AGAIN, `a plan after each move: median ${median(latencies.map(([, took]) => took)).toFixed(0)} ms of ${latencies.length} tasks`);

@@ -115,6 +115,7 @@ pub fn run(args: &DesignArgs, session: &Session) -> Result<u8, CliError> {
                 name: format!("{}{suffix}", proposal.tool.name),
                 page: args.results.page,
                 animate: args.animate,
+                design: Some(&design),
                 origin: &origin,
             };
             let works = code != exit_code::NO_PLAN && code != exit_code::FAILED_VERIFICATION;

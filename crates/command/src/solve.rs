@@ -12,7 +12,10 @@ use pushplan::{
     scene::{ModelSpec, Situation},
     task::Task,
 };
-use pushplan_report::{Origin, PageView, plan_figures, solution_document, solution_page};
+use pushplan_design::Design;
+use pushplan_report::{
+    Origin, PageView, design_page, plan_figures, solution_document, solution_page,
+};
 
 use super::{
     error::CliError,
@@ -115,6 +118,7 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
                 name: format!("{}{suffix}", task.name),
                 page: args.results.page,
                 animate: args.animate,
+                design: None,
                 origin: &|model| args.results.library.origin(args.task.source(), model),
             };
             results.write(session, &task, &planner, (&solution, best))
@@ -178,6 +182,8 @@ pub struct Results<'a> {
     pub page: PageView,
     /// Whether an animation is drawn.
     pub animate: bool,
+    /// Design of the tool, which the page then explains.
+    pub design: Option<&'a Design>,
     /// Function that returns the sources of a plan for the given model.
     pub origin: &'a dyn Fn(Option<ModelSpec>) -> Origin,
 }
@@ -207,7 +213,10 @@ impl Results<'_> {
             let model = Some(ranked.predicted.by.clone());
             (self.origin)(model).plan(&ranked.plan)
         };
-        let page = solution_page(task, solution, &replays, &recipe, self.page);
+        let page = match self.design {
+            Some(design) => design_page(task, design, &replays, &recipe, self.page),
+            None => solution_page(task, solution, &replays, &recipe, self.page),
+        };
         written.push(output::write(out, &format!("{name}.html"), page.as_bytes())?);
         Ok(written)
     }

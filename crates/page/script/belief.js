@@ -6,19 +6,21 @@
   byId('belief-card').hidden = !any;
   if (!any) return;
 
-  const [WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM] = [320, 96, 44, 26, 6, 6];
+  const [HEIGHT, LEFT, RIGHT, TOP, BOTTOM] = [96, 44, 26, 6, 6];
+  const [NARROW, GAP] = [304, 24]; // smallest width of a figure, and the gap between figures, pixels
+  let width = 320;
   const THOUSANDTH = 1e-3;
   const times = run.times.map((time) => time * FINE);
-  const x = (time) => +(LEFT + (time / (duration() || 1)) * (WIDTH - LEFT - RIGHT)).toFixed(1);
+  const x = (time) => +(LEFT + (time / (duration() || 1)) * (width - LEFT - RIGHT)).toFixed(1);
   // The final belief is drawn up to the right margin.
-  const until = (k) => (k + 1 < times.length ? x(times[k + 1]) : WIDTH);
+  const until = (k) => (k + 1 < times.length ? x(times[k + 1]) : width);
   const place = (share) => +(HEIGHT - BOTTOM - share * (HEIGHT - TOP - BOTTOM)).toFixed(1);
 
   /** Returns a figure with a time cursor; `words` describes the belief after a number of pushes. */
   function figure(name, words, ...drawn) {
     const hand = svg('line', { y1: TOP, y2: HEIGHT - BOTTOM, class: 'hand' });
     const output = html('output', { 'aria-label': name });
-    const root = svg('svg', { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: 'plot', role: 'img' },
+    const root = svg('svg', { viewBox: `0 0 ${width} ${HEIGHT}`, class: 'plot', role: 'img' },
       svg('title', {}, `${name} over time`), ...drawn, hand);
     const show = () => {
       hand.setAttribute('x1', x(view.time));
@@ -56,11 +58,11 @@
     }));
     const line = values.flatMap(([mean], k) => [`${x(times[k])},${y(mean)}`, `${until(k)},${y(mean)}`]);
     const drawn = [...bands, svg('polyline', { points: line.join(' '), class: 'mean' })];
-    if (really !== null) drawn.push(svg('line', { x1: LEFT, x2: WIDTH, y1: y(really), y2: y(really), class: 'truth' }));
+    if (really !== null) drawn.push(svg('line', { x1: LEFT, x2: width, y1: y(really), y2: y(really), class: 'truth' }));
     for (const [value, shift] of [[least, 0], [most, 10]]) {
-      drawn.push(svg('text', { x: LEFT - 5, y: y(value) + shift, class: 'small end' }, (value * THOUSANDTH).toFixed(2)));
+      drawn.push(svg('text', { x: LEFT - 5, y: y(value) + shift, class: 'small end' }, fixed(value * THOUSANDTH, 2)));
     }
-    const text = (value) => (value * THOUSANDTH).toFixed(2);
+    const text = (value) => fixed(value * THOUSANDTH, 2);
     const words = (k) => {
       const said = `${text(values[k][0])} ± ${text(values[k][1])}${unit}`;
       return really === null ? said : `${said}; true: ${text(really)}${unit}`;
@@ -77,6 +79,9 @@
 
   let shows = [];
   whenPlanChanges.push(() => {
+    const [all, count] = [widthOf(byId('belief')), run.joints.length + run.numbers.length];
+    const columns = Math.max(1, Math.min(count, Math.floor((all + GAP) / (NARROW + GAP))));
+    width = Math.round((all - GAP * (columns - 1)) / columns);
     const figures = [...run.joints.map(joint), ...run.numbers.map(number)];
     byId('belief').replaceChildren(...figures.map(([node]) => node));
     shows = figures.map(([, show]) => show);

@@ -9,7 +9,7 @@
   const still = svg('g');
   const hand = svg('line', { y1: TOP, y2: HEIGHT - BOTTOM, class: 'hand' });
   const dots = svg('g');
-  root.append(svg('title', {}, `${page.measure?.name ?? 'Goal error'} over time`), still, hand, dots);
+  root.append(svg('title', {}, `${measured} over time`), still, hand, dots);
   byId('chart').append(root);
 
   let [least, most] = [0, 1]; // metres
@@ -26,7 +26,7 @@
     still.replaceChildren();
     width = widthOf(byId('chart'));
     root.setAttribute('viewBox', `0 0 ${width} ${HEIGHT}`);
-    const tolerance = goals[0].tolerance * LENGTH;
+    const tolerance = allowedError();
     const errors = replays().flatMap((replay) => Array.from(replay.time, (t) => replay.error(t)));
     // Other quantities than distances may become negative.
     least = Math.min(0, ...errors) * 1.06;
@@ -43,7 +43,7 @@
         svg('text', { x: LEFT - 7, y: height + 4, class: 'small end' }, `${+(k * rise * 1000).toPrecision(6)}`),
       );
     }
-    still.append(svg('text', { x: width - RIGHT - 4, y: TOP + 10, class: 'small end' }, page.measure?.axis ?? 'goal error, mm'));
+    still.append(svg('text', { x: width - RIGHT - 4, y: TOP + 10, class: 'small end' }, page.measure?.axis ?? (angular ? 'heading error, °' : 'goal error, mm')));
     const pace = roundStep(duration() || 1, Math.min(8, width / 60));
     for (let k = 0; k * pace <= duration() + 1e-9; k++) {
       const name = `${+(k * pace).toPrecision(6)}${k ? '' : ' s'}`;

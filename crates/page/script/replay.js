@@ -72,8 +72,9 @@ class Replay {
     return between(here, columns.map((column) => column[frame + 1]), share);
   }
 
-  /** Returns the goal error at `time`, or the other measured quantity, metres. */
+  /** Returns the goal error at `time`, or the other measured quantity, metres or thousandths of a degree. */
   error(time) {
+    if (angular) return ((this.headingError(time) * 180) / Math.PI) * 1e-3;
     if (this.measure) {
       const [frame, share] = this.place(time);
       const here = this.measure[frame];

@@ -1,13 +1,9 @@
-// The pushes of a run, each with a button that shows its start, and tables of the results.
+// The pushes of a run, each with a button that shows its start.
 
 (() => {
   const { run } = page;
   byId('run-card').hidden = !run?.made.length;
   if (!run) return;
-  byId('found').replaceChildren(...run.found.map(({ title, columns, numeric, rows }) => html('section', { class: 'card' },
-    html('h2', {}, title),
-    html('div', { class: 'wide' }, html('table', {}, headed(columns, numeric),
-      ...rows.map((cells) => html('tr', {}, ...cells.map((cell, c) => html('td', side(numeric[c]), cell)))))))));
   const rows = run.made.map(({ at, cells }) => {
     const button = html('button', { class: 'open', 'aria-label': `Show push ${cells[0]}` }, cells[0]);
     button.addEventListener('click', () => {

@@ -4,7 +4,8 @@
 const solid = (() => {
   const flat = byId('stage');
   const canvas = html('canvas', { tabindex: 0, 'aria-label': 'The table in 3-D', role: 'img' });
-  const figure = html('figure', { class: 'solid', id: 'solid' }, canvas);
+  const names = namesOver(canvas);
+  const figure = html('figure', { class: 'solid', id: 'solid' }, canvas, names.layer);
   const words = html('p', { class: 'faint', id: 'solid-words' });
   const choices = [['3-D', true], [page.measure ? 'Drawing' : 'From above', false]].map(([name, inDepth]) => {
     const button = html('button', { id: inDepth ? 'show-solid' : 'show-flat' }, name);
@@ -15,6 +16,7 @@ const solid = (() => {
     ...choices.map(([button]) => button));
 
   const [THIN, EDGE] = [0.0015, 25]; // metres above the table; degrees between faces
+  const FOOT = 0.12; // metres of the robot's base that are drawn; the rest would hide the table
   let renderer;
   let scene;
   let camera;
@@ -25,6 +27,7 @@ const solid = (() => {
   function show(inDepth) {
     figure.hidden = !inDepth;
     flat.hidden = inDepth;
+    words.hidden = !inDepth;
     for (const [button, own] of choices) button.setAttribute('aria-pressed', own === inDepth);
     if (inDepth) draw();
     else showPlan(view.plan);
@@ -63,6 +66,17 @@ const solid = (() => {
     const whole = new THREE.Group().add(mesh, edges);
     for (const part of body.more ?? []) whole.add(piece(part, fill, rim, ghost));
     return whole;
+  }
+
+  /** Returns the hand about a grip: palm and two fingers that hold a part of this height (units of the data). */
+  function gripper(hand, held) {
+    const palm = piece({ ...hand, height: hand.height / 2 }, colour('hatch'), colour('other-rim'));
+    const [half, tip] = [0.6 * hand.shape.disc, 0.16 * hand.shape.disc];
+    for (const side of [-1, 1]) {
+      const finger = { shape: { disc: tip }, height: Math.max(1, hand.under - held / 2), under: held / 2 };
+      palm.add(placed(piece(finger, colour('hatch'), colour('other-rim')), [0, side * half * LENGTH, 0]));
+    }
+    return palm;
   }
 
   /** Moves a node to a pose; poses in space include height and rotation. */
@@ -135,6 +149,12 @@ const solid = (() => {
     const rounds = [...(goal.covers ?? []), ...(goal.bands ?? []).flatMap(({ pieces }) => pieces)];
     for (const corners of rounds) scene.add(line([...corners, corners[0]].map(flat), colour('goal')));
     for (const edge of goal.edges ?? []) scene.add(line(edge.map(flat), colour('goal')));
+    if (goal.arc) {
+      const { from, to, tolerance } = goal.arc;
+      const on = (list) => list.map((point) => [...point, 2 * THIN]);
+      const sector = [onArc(goal.arc, 0, 0), ...arcPoints(goal.arc, to - tolerance, to + tolerance)];
+      scene.add(line(on(sector), colour('goal'), true), line(on(arcPoints(goal.arc, from, to)), colour('goal')));
+    }
     const disc = { shape: { disc: goal.tolerance }, at: [...goal.at, 0] };
     for (const area of goal.areas.length || !goal.tolerance ? goal.areas : [disc]) {
       const place = posed(area.at);
@@ -148,6 +168,7 @@ const solid = (() => {
     }
     if (goal.heading) {
       at[2] = goal.heading[0] * FINE;
+      if (goal.arc) at.splice(0, 3, ...swung(goal.arc, posed(objects[goal.objects[0]].at)));
       for (const [body, pose] of solidsAt(objects, goal.objects[0], at)) {
         scene.add(placed(piece(body, colour('goal'), colour('goal'), true), pose));
       }
@@ -158,7 +179,11 @@ const solid = (() => {
     const { objects, obstacles, reach, regions = [] } = page.stage;
     for (const radius of reach) scene.add(ring([0, 0], radius * LENGTH, colour('accent')));
     for (const body of obstacles) {
-      scene.add(placed(piece(body, colour('hatch'), colour('other-rim'), body.under > 0), posed(body.at)));
+      const low = body.base ? { ...body, height: Math.min(body.height, FOOT / LENGTH) } : body;
+      const tint = colour(body.base ? 'faint' : 'hatch');
+      const node = placed(piece(low, tint, colour('other-rim'), body.under > 0), posed(body.at));
+      scene.add(node);
+      names.add(node, body.name, (low.height + low.under || low.height) * LENGTH);
     }
     for (const body of regions) {
       const flat = { ...body, height: (2 * THIN) / LENGTH };
@@ -195,12 +220,17 @@ const solid = (() => {
     for (const index of new Set(plan().strokes.map((stroke) => stroke.tool))) {
       const tool = new THREE.Group();
       for (const part of page.tools[index].parts) {
-        tool.add(placed(piece(part, colour('tool'), colour('tool-rim')), posed(part.at), plan().lift * LENGTH));
+        const node = placed(piece(part, colour('tool'), colour('tool-rim')), posed(part.at), plan().lift * LENGTH);
+        tool.add(node);
+        // Named at its last part, away from the hand.
+        if (part === page.tools[index].parts.at(-1)) names.add(node, page.tools[index].name, part.height * LENGTH);
       }
       const { hand } = plan();
+      const top = Math.max(...page.tools[index].parts.map((part) => part.height + (part.under ?? 0)));
       if (hand) {
-        const held = posed(page.tools[index].grip);
-        tool.add(placed(piece(hand, colour('tool'), colour('tool-rim'), true), held, plan().lift * LENGTH));
+        const held = placed(gripper(hand, top), posed(page.tools[index].grip), plan().lift * LENGTH);
+        tool.add(held);
+        names.add(held, 'hand', (hand.under + hand.height / 2) * LENGTH);
       }
       add(tool, (time) => (lead.stroke(time).tool === index ? lead.toolPose(time) : null), { tool: index });
     }
@@ -209,6 +239,7 @@ const solid = (() => {
         const own = wants(object) ? 'own' : 'other';
         const tint = layerColour(replay.layer);
         const node = replay === lead ? piece(body, colour(own), colour(`${own}-rim`)) : piece(body, tint, tint, true);
+        if (replay === lead && body.whole === undefined) names.add(node, body.name, body.height * LENGTH);
         add(node, (time) => replay.object(object, time), { layer: replay.layer, object });
       });
     }
@@ -230,7 +261,9 @@ const solid = (() => {
   }
 
   function render() {
-    if (ready && !figure.hidden) renderer.render(scene, camera);
+    if (!ready || figure.hidden) return;
+    renderer.render(scene, camera);
+    names.show(camera);
   }
 
   function move() {
@@ -249,6 +282,7 @@ const solid = (() => {
       node.material?.dispose();
     });
     scene.clear();
+    names.clear();
     const [middle, half] = extent();
     drawTable(middle, half);
     drawStill();
@@ -341,6 +375,7 @@ const solid = (() => {
     figure.hidden = true;
     flat.hidden = false;
     words.textContent = error.message;
+    words.hidden = false;
   });
 
   return {

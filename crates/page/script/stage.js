@@ -33,23 +33,6 @@
     return svg('polyline', { points: points.map((p) => map(p).join(',')).join(' '), ...attributes });
   }
 
-  /** Returns the shape of a tool as one piece: rims first, fills over them. */
-  function toolShape(tool, className) {
-    const group = svg('g', { class: className });
-    for (const layer of ['rim', 'fill']) {
-      for (const part of tool.parts) {
-        const [x, y, heading] = posed(part.at);
-        const turn = `translate(${px(x)} ${px(-y)}) rotate(${(-heading * 180) / Math.PI})`;
-        group.append(outline(part.shape, { transform: turn, class: layer }));
-      }
-    }
-    const [x, y] = posed(tool.grip);
-    const { hand } = plan();
-    if (hand) group.append(svg('circle', { cx: px(x), cy: px(-y), r: px(radius(hand.shape)), class: 'hand' }, svg('title', {}, 'hand')));
-    group.append(svg('circle', { cx: px(x), cy: px(-y), r: 4.5, class: 'grip' }));
-    return group;
-  }
-
   function fit() {
     low = [Infinity, Infinity];
     high = [-Infinity, -Infinity];
@@ -61,6 +44,7 @@
     for (const goal of goals) {
       add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
       for (const area of goal.areas) add(posed(area.at), radius(area.shape));
+      if (goal.arc) add(onArc(goal.arc, goal.arc.to));
     }
     for (const body of [...objects, ...obstacles, ...regions]) add(posed(body.at), radius(body.shape));
     // If nothing moves, the robot is shown as well.
@@ -118,16 +102,16 @@
     for (const ring of reach) {
       still.append(svg('circle', { cx: baseX, cy: baseY, r: px(ring * LENGTH), class: 'reach' }));
     }
-    still.append(svg('circle', { cx: baseX, cy: baseY, r: 4, class: 'robot' }, svg('title', {}, 'robot')));
     over.replaceChildren();
     const fixed = [[regions, 'keep-out'], [obstacles, 'obstacle']];
     for (const [bodies, className] of fixed) for (const body of bodies) {
-      const name = body.under ? 'overhead' : className;
+      const name = body.under ? 'overhead' : body.base ? 'base' : className;
       const shape = outline(body.shape, { transform: at(posed(body.at)), class: name });
       const height = (body.under * LENGTH).toFixed(3);
       shape.append(svg('title', {}, body.under ? `${body.name}, ${height} m above the table` : body.name));
       (body.under ? over : still).append(shape);
     }
+    still.append(...robotMark(obstacles, px, map));
     objects.forEach((body, k) => {
       const className = wants(k) ? 'start own' : 'start';
       still.append(outline(body.shape, { transform: at(posed(body.at)), class: className }));
@@ -142,6 +126,7 @@
     wanted[2] = goal.heading ? goal.heading[0] * FINE : posed(own.at)[2];
     const [x, y] = map(wanted);
     const turned = goal.heading && !(goal.bands || goal.edges);
+    if (goal.arc) wanted.splice(0, 3, ...swung(goal.arc, posed(own.at)));
     if (turned || (!goal.unplaced && (goal.heading || 'disc' in own.shape))) {
       for (const [body, pose] of solidsAt(objects, goal.objects[0], wanted)) {
         still.append(outline(body.shape, { transform: at(pose), class: 'wanted' }));
@@ -162,18 +147,7 @@
 
   /** Draws the path of the end effector above all bodies. */
   function drawPushes() {
-    pushes.replaceChildren();
-    plan().strokes.forEach((stroke, k) => {
-      const grip = posed(page.tools[stroke.tool].grip);
-      const [from, to] = [stroke.from, stroke.to].map((end) => map(placed(posed(end), grip)));
-      const turn = (Math.atan2(to[1] - from[1], to[0] - from[0]) * 180) / Math.PI;
-      pushes.append(
-        svg('line', { x1: from[0], y1: from[1], x2: to[0], y2: to[1], class: 'push' }),
-        svg('path', { d: 'M-9-5l9 5-9 5', class: 'push head', transform: `translate(${to[0]} ${to[1]}) rotate(${turn})` }),
-        svg('circle', { cx: from[0], cy: from[1], r: 9, class: 'push-dot' }),
-        svg('text', { x: from[0], y: from[1] + 4, class: 'push-number' }, `${k + 1}`),
-      );
-    });
+    pushes.replaceChildren(...plan().strokes.flatMap((stroke, k) => strokeShapes(stroke, k, page.tools, map)));
   }
 
   function drawMoving() {
@@ -189,7 +163,7 @@
     // Only the tool in use is shown.
     for (const index of new Set(plan().strokes.map((stroke) => stroke.tool))) {
       const place = (time) => (lead.stroke(time).tool === index ? at(lead.toolPose(time)) : 'scale(0)');
-      add(toolShape(page.tools[index], 'tool'), place);
+      add(toolShape(page.tools[index], plan().hand, px, { class: 'tool' }), place);
     }
     for (const replay of shown()) {
       objects.forEach((body, k) => {

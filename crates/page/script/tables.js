@@ -1,4 +1,4 @@
-// The header, and the tables of layers, plans and tools.
+// The header, and the tables of layers, results, plans and tools.
 
 (() => {
   const WORDS = {
@@ -6,7 +6,6 @@
     reached: 'reached', given_up: 'not reached', inferred: 'inferred',
   };
 
-  const measured = page.measure?.name ?? 'Goal error';
   byId('measure').textContent = measured;
   byId('task').textContent = page.task;
   const [goal] = goals;
@@ -37,7 +36,7 @@
             svg('path', { d: 'M1 5h24', class: `line ${replay.layer}` })),
           html('span', {}, name)),
         html('output', { id: `error-${replay.layer}`, 'aria-label': `${name}, ${measured.toLowerCase()}` }),
-        html('span', { class: 'faint' }, `ends at ${millimetres(replay.error(replay.end))}`));
+        html('span', { class: 'faint' }, `ends at ${errorWords(replay.error(replay.end))}`));
     });
     if (graphed()) {
       const box = html('input', { type: 'checkbox', id: 'show-graph' });
@@ -55,9 +54,9 @@
 
   function errors() {
     for (const replay of replays()) {
-      byId(`error-${replay.layer}`).textContent = millimetres(replay.error(view.time));
+      byId(`error-${replay.layer}`).textContent = errorWords(replay.error(view.time));
     }
-    if (goal.heading) {
+    if (goal.heading && !angular) {
       const turned = replays().map((replay) => `${LAYERS[replay.layer]} ${degrees(replay.headingError(view.time))}`);
       const allowed = degrees(goal.heading[1] * FINE);
       byId('heading').textContent = `Heading error: ${turned.join(', ')}; ${allowed} allowed.`;
@@ -105,6 +104,10 @@
     byId('tools').replaceChildren(headed(names, numeric(names.length)), ...rows);
   }
 
+  byId('found').replaceChildren(...page.found.map(({ title, columns, numeric: sides, rows }) => html('section', { class: 'card' },
+    html('h2', {}, title),
+    html('div', { class: 'wide' }, html('table', {}, headed(columns, sides),
+      ...rows.map((cells) => html('tr', {}, ...cells.map((cell, c) => html('td', side(sides[c]), cell)))))))));
   byId('warnings-card').hidden = page.warnings.length === 0;
   byId('warnings').replaceChildren(...page.warnings.map((line) => html('li', {}, line)));
   plans();

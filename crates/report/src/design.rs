@@ -63,7 +63,7 @@ fn why_none(design: &Design) -> &'static str {
     }
 }
 
-fn parts(tool: &Tool) -> Section {
+pub(crate) fn parts(tool: &Tool) -> Section {
     let size = |part: &&Part| {
         let across = |axis: Vector| part.footprint().extent(axis) + part.footprint().extent(-axis);
         let [x, y] = [Vector::x(), Vector::y()].map(across);

@@ -45,8 +45,8 @@ pub use fit::{fit_document, table_fit_section};
 pub use graph::{Graph, GraphNode, GraphRelation, NodeKind, RelationName};
 pub use number::{degrees, fine_millimetres, millimetres, seconds};
 pub use page::{
-    Origin, PageView, Recipe, Setting, TaskSource, prediction_page, recording_page, run_page,
-    solution_page, task_stage, verdict_page,
+    Origin, PageView, Recipe, Setting, TaskSource, design_page, plan_stage, prediction_page,
+    recording_page, run_page, solution_page, task_stage, verdict_page,
 };
 pub use picture::{MovingPicture, ScenePicture, Source, Track};
 pub use plan_picture::{plan_figures, space_figures};
@@ -59,7 +59,7 @@ pub use recorded::{
 pub use run::run_document;
 pub use schema::DocumentKind;
 pub use second_opinion::{Judged, SecondOpinion, TimedReplay};
-pub use solution::solution_document;
+pub use solution::{solution_document, solution_title};
 pub use solved::{SOLVED_COLUMNS, error_chart, flat, progress_note, solved_cells, solved_document};
 pub use table::{Align, Column, NONE, Table};
 pub use tools::{single_document, tools_document};

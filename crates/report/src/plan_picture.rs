@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use pushplan::solve::RankedPlan;
 use pushplan::{
-    outcome::{Trajectory, Verdict},
+    outcome::{Outcome, Trajectory, Verdict},
     scene::{Engine, Tool},
     task::{Plan, Task, ToolMotion},
 };
 
 use super::document::Figure;
-use super::number::millimetres;
+use super::number::{degrees, millimetres};
 use super::picture::{MovingPicture, ScenePicture, Source, SpacePicture, Track};
 use super::plan_text::{engine_name, goal_line, plan_line};
 use super::verdict::{nominal, verdict_line};
@@ -99,16 +99,26 @@ fn still<'a>(
     motions: &'a [ToolMotion],
     replays: &'a Verdict,
 ) -> ScenePicture<'a> {
-    let mut errors = vec![format!("predicted {}", millimetres(plan.outcome.error()))];
+    let goal = &task.goals[0];
+    // The error of a goal that is a heading alone is an angle.
+    let angle = goal.heading().filter(|_| !goal.tolerance().is_finite());
+    let words = |outcome: &Outcome| match (angle, outcome.heading_error()) {
+        (Some(_), Some(turn)) => degrees(turn),
+        _ => millimetres(outcome.error()),
+    };
+    let mut errors = vec![format!("predicted {}", words(&plan.outcome))];
     let mut tracks = Vec::new();
     // An object that does not move has no path to draw.
     for evidence in nominal(replays).filter(|_| !plan.plan.is_empty()) {
-        let (engine, error) = (engine_name(evidence.engine), evidence.outcome.error());
-        errors.push(format!("{engine} {}", millimetres(error)));
+        let engine = engine_name(evidence.engine);
+        errors.push(format!("{engine} {}", words(&evidence.outcome)));
         let source = Source::Simulated(evidence.engine);
         tracks.extend(evidence.trajectory.iter().map(|trajectory| Track { source, trajectory }));
     }
-    let allowed = millimetres(task.goals[0].tolerance());
+    let allowed = match angle {
+        Some(facing) => degrees(facing.tolerance),
+        None => millimetres(goal.tolerance()),
+    };
     tracks.push(Track { source: Source::Predicted, trajectory: &plan.predicted });
     ScenePicture {
         title: format!("{}: {}", task.name, plan_line(&plan.plan)),

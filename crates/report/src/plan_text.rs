@@ -200,7 +200,7 @@ pub(super) fn outcome_table<'a>(
     let heading = |outcome: &Outcome| outcome.heading_error().map_or(NONE.to_owned(), degrees);
     let outcomes: Vec<(String, &Outcome, Option<&Warning>)> = outcomes.collect();
     if outcomes.iter().any(|(_, outcome, _)| outcome.state.space.is_some()) {
-        return lying_table(task.goals[0].object, outcomes, &end);
+        return lying_table(task, outcomes, &end);
     }
     if task.goals.iter().map(|goal| goal.movers().len()).sum::<usize>() > 1 {
         return goals_table(task, outcomes);
@@ -276,24 +276,29 @@ fn reached(outcome: &Outcome, fault: Option<&Warning>) -> String {
 
 /// Returns a table of the goal object's lying state, one row per source.
 fn lying_table(
-    object: usize,
+    task: &Task,
     outcomes: Vec<(String, &Outcome, Option<&Warning>)>,
     end: &dyn Fn(&Outcome) -> String,
 ) -> Table {
+    let object = task.goals[0].object;
     let raised = |outcome: &Outcome| {
         let raised = outcome.goals.iter().find_map(|goal| goal.raised);
         millimetres(raised.unwrap_or(0.0))
     };
-    Table::of(
-        outcomes,
-        &[
-            ("", Left, &|(source, ..)| source.clone()),
-            ("edge raised", Right, &|(_, outcome, _)| raised(outcome)),
-            ("at rest", Left, &|(_, outcome, _)| outcome.side(object).to_string()),
-            ("final position", Left, &|(_, outcome, _)| end(outcome)),
-            ("reached", Left, &|(_, outcome, fault)| reached(outcome, *fault)),
-        ],
-    )
+    type Row<'r> = (String, &'r Outcome, Option<&'r Warning>);
+    let height = |(_, outcome, _): &Row| raised(outcome);
+    let side = |(_, outcome, _): &Row| outcome.side(object).to_string();
+    let position = |(_, outcome, _): &Row| end(outcome);
+    let there = |(_, outcome, fault): &Row| reached(outcome, *fault);
+    let mut columns: Vec<Column<Row>> = vec![("", Left, &|(source, ..)| source.clone())];
+    // A plate that turns over is in free fall at the end of the rotation.
+    if task.goals.iter().any(|goal| goal.raises()) {
+        columns.push(("edge raised", Right, &height));
+    }
+    columns.push(("at rest", Left, &side));
+    columns.push(("final position", Left, &position));
+    columns.push(("reached", Left, &there));
+    Table::of(outcomes, &columns)
 }
 
 /// Returns the name of an engine for a sentence or a table.

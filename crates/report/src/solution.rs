@@ -47,12 +47,17 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
         ..Section::default()
     });
     Document {
-        title: format!("{}: {}", task.name, headline(task, solution)),
+        title: solution_title(task, solution),
         notes: vec![format!("goal: {}", goal_line(task))],
         sections,
         json: json(task, solution),
         ..Document::default()
     }
+}
+
+/// Returns the name of the task and the result in one line: the title of [`solution_document`].
+pub fn solution_title(task: &Task, solution: &Solution) -> String {
+    format!("{}: {}", task.name, headline(task, solution))
 }
 
 pub(super) fn headline(task: &Task, solution: &Solution) -> String {

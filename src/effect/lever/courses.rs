@@ -113,7 +113,7 @@ fn trajectory(
     let end = course.lift.last().copied().unwrap_or(course.rest);
     let lift = Lift {
         object: lever.plate,
-        raised: end.point([at.x, at.y, 0.0].into()).z - plate.z,
+        raised: Lift::height(&start[lever.plate], &end, at),
         held: course.held.last().copied().unwrap_or(false),
         tilt: end.tilt(),
     };

@@ -132,7 +132,7 @@ fn lifted(
     let slipped = has_slipped(start, lift, held);
     let found = Lift {
         object: lever.plate,
-        raised: end.point([at.x, at.y, 0.0].into()).z - start.position.z,
+        raised: Lift::height(start, &end, at),
         held: held.last().copied().unwrap_or(false),
         tilt: end.tilt(),
     };

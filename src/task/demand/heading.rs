@@ -161,8 +161,9 @@ impl Kind for Facing {
         Check::up_to(quantity, self.tolerance)
     }
 
-    fn marks(&self, _: usize, _: &Scene) -> Vec<Mark> {
+    fn marks(&self, object: usize, scene: &Scene) -> Vec<Mark> {
         let Self { heading, tolerance, limit_middle, symmetry, .. } = *self;
-        vec![Mark::Headings { heading, tolerance, limit_middle, symmetry }]
+        let swing = self.swing(object, scene);
+        vec![Mark::Headings { heading, tolerance, limit_middle, symmetry, swing }]
     }
 }

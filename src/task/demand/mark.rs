@@ -36,6 +36,8 @@ pub enum Mark {
         limit_middle: Option<f64>,
         /// The number of equivalent headings.
         symmetry: usize,
+        /// The way about a hinge, if one holds the object.
+        swing: Option<Swing>,
     },
     /// A distance that must come within limits.
     Distance([Vector; 2]),
@@ -52,6 +54,26 @@ pub enum Mark {
     Edge([Vector; 2]),
     /// A height above the table that an edge must reach.
     Height(f64),
+}
+
+/// The way of a hinged object's far end: an arc about the hinge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Swing {
+    /// Position of the hinge, metres.
+    pub hinge: Vector,
+    /// Distance of the object's farthest corner from the hinge, metres.
+    pub radius: f64,
+    /// Angle of the object at the start, seen from the hinge, radians.
+    pub from: f64,
+    /// Wanted angle, radians; less than `from` for a clockwise way.
+    pub to: f64,
+}
+
+impl Swing {
+    /// Returns the wanted position of the far end, metres.
+    pub fn end(&self) -> Vector {
+        self.hinge + self.radius * Vector::new(self.to.cos(), self.to.sin())
+    }
 }
 
 /// The marks of a goal.

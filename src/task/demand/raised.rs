@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::{Pose3, Vector};
 use crate::scene::Scene;
 
 use super::check::name;
@@ -22,6 +23,15 @@ pub struct Lift {
     pub held: bool,
     /// Tilt of the object, radians.
     pub tilt: f64,
+}
+
+impl Lift {
+    /// Returns the height (metres) to which the edge of an object is raised: of the point `edge` of
+    /// its underside, in its frame, above its underside at `start`. Tables, pages and goals state
+    /// this height at the end of the rotation.
+    pub fn height(start: &Pose3, now: &Pose3, edge: Vector) -> f64 {
+        now.point([edge.x, edge.y, 0.0].into()).z - start.position.z
+    }
 }
 
 /// A height to which a blade lifts an edge.

@@ -56,7 +56,7 @@ fn pushing(
                 let objects = scene.objects.iter().zip(&state.poses).enumerate();
                 let mut on_table = objects.filter(|(k, _)| !scene.has_left(*k, state));
                 let found = on_table.find(|(_, one)| meets(one));
-                found.map(|(_, (object, _))| object.name.clone())
+                found.map(|(k, _)| scene.thing_name(k).to_owned())
             })
         };
         let start = tool.pose(Pose { position: step.push.start, heading: step.grip_yaw });

@@ -73,7 +73,7 @@ fn hanging(
             object.z >= top && state.is_some_and(|state| !scene.has_left(*k, state))
         });
         let found = raised.find(|(_, (object, pose))| over(&object.shape.footprint(), pose));
-        found.map(|(_, (object, _))| object.name.clone())
+        found.map(|(k, _)| scene.thing_name(k).to_owned())
     };
     fixed.map(|fixed| fixed.name.to_owned()).or_else(object)
 }

@@ -3,6 +3,10 @@
 use serde::Serialize;
 use serde_json::Value as Json;
 
+mod run;
+
+pub use run::{Believed, Found, Joined, Made, Run};
+
 pub use super::units::{fine, length, point, pose};
 
 /// Data of a whole page.
@@ -28,6 +32,8 @@ pub struct Data {
     /// Offered tools, the chosen one first.
     pub choice: Vec<Choice>,
     pub candidates: Option<Candidates>,
+    /// Further results, above the other tables.
+    pub found: Vec<Found>,
     /// Pushes of a run and the belief over time.
     pub run: Option<Run>,
     /// Warnings, a line each.
@@ -70,6 +76,9 @@ pub struct Body {
     /// Height of the underside above the body's origin.
     #[serde(skip_serializing_if = "is_zero")]
     pub under: i64,
+    /// Whether it is the robot's base.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub base: bool,
     /// Index of the object of which it is a part.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub whole: Option<usize>,
@@ -115,6 +124,9 @@ pub struct Goal {
     /// Parts of edges of the table that must be crossed.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub edges: Vec<[[i64; 2]; 2]>,
+    /// Way about a hinge, if one holds the object.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arc: Option<Arc>,
     /// Wanted heading and its tolerance, if the goal has one.
     pub heading: Option<[i64; 2]>,
     /// Midpoint of the joint limits, used to unwrap headings to the nearest turn.
@@ -133,6 +145,19 @@ pub struct Area {
     pub at: [i64; 3],
     /// Whether a centre must leave the region.
     pub leave: bool,
+}
+
+/// Way of a hinged object's far end.
+#[derive(Serialize)]
+pub struct Arc {
+    /// Position of the hinge.
+    pub centre: [i64; 2],
+    pub radius: i64,
+    /// Angle at the start and wanted angle, seen from the hinge.
+    pub from: i64,
+    pub to: i64,
+    /// Largest rotation from the wanted angle.
+    pub tolerance: i64,
 }
 
 /// Distances from a body.
@@ -313,67 +338,6 @@ impl Grid {
     pub const BLOCKED: i64 = -2;
     /// Value of an infeasible cell with the first reason; further reasons follow downwards.
     pub const REFUSED: i64 = -10;
-}
-
-/// Pushes of a run or a recording, and the belief over time.
-#[derive(Serialize)]
-pub struct Run {
-    /// Kind of record, in one word.
-    pub kind: &'static str,
-    /// Explanation of when the belief changes, in a sentence.
-    pub words: &'static str,
-    /// Final results.
-    pub found: Vec<Found>,
-    /// Names of the columns of [`Made::cells`].
-    pub columns: Vec<String>,
-    /// Whether each column is numeric.
-    pub numeric: Vec<bool>,
-    pub made: Vec<Made>,
-    /// Times at which the belief changes, the start first.
-    pub times: Vec<i64>,
-    /// Names of the types of joints.
-    pub types: Vec<String>,
-    pub joints: Vec<Joined>,
-    pub numbers: Vec<Believed>,
-}
-
-/// Table of final results.
-#[derive(Serialize)]
-pub struct Found {
-    pub title: String,
-    pub columns: Vec<String>,
-    /// Whether each column is numeric.
-    pub numeric: Vec<bool>,
-    pub rows: Vec<Vec<String>>,
-}
-
-/// Continuous pushing sequence.
-#[derive(Serialize)]
-pub struct Made {
-    /// Start time.
-    pub at: i64,
-    pub cells: Vec<String>,
-}
-
-/// Belief about the joint of two objects.
-#[derive(Serialize)]
-pub struct Joined {
-    pub name: String,
-    /// Type probabilities at each of [`Run::times`], in thousandths.
-    pub shares: Vec<[i64; 4]>,
-    /// Index of the true type, if known.
-    pub really: Option<usize>,
-}
-
-/// Belief about a number.
-#[derive(Serialize)]
-pub struct Believed {
-    pub name: String,
-    pub unit: &'static str,
-    /// Mean and standard deviation at each of [`Run::times`], in thousandths.
-    pub values: Vec<[i64; 2]>,
-    /// True value, if known.
-    pub really: Option<i64>,
 }
 
 /// Common content of the plan files on the page.

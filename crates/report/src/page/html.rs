@@ -12,11 +12,11 @@ const STAGE: &str = "<figure class=\"stage\" id=\"stage\">";
 
 /// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64, for the content security policy. A test compares
 /// the hashes, so that a release needs no hash function.
-const SCRIPT_HASH: &str = "BSGfSZ2o2f7Rp6lY734MCUtzrzOWR7PKFc0mgdZm8VM=";
-const STYLE_HASH: &str = "EZFwHAX62sKBHcEGA7NYgCLbeerq6M2XYbrKH0SFxYg=";
+const SCRIPT_HASH: &str = "j8oqK3i4vd1DMaY+ygaSvvcsAXhqj+UUPUVr+U89FUw=";
+const STYLE_HASH: &str = "zXSw6BzXcyuVOPIi7jmn9KiwKyXUrtidXTt+/KEBizA=";
 
 /// SHA-256 of [`SOLID`], and of three.js after decompression.
-const SOLID_HASH: &str = "T0PQ6aAYl8+2jUMSR5AdC8m+sf8wHwYICKVi/DseP/I=";
+const SOLID_HASH: &str = "1vHu8YPVQQENrRJNBNvdERU1gvFB2XFBJ6BUJ6vPeSs=";
 const THREE_HASH: &str = "1DAXuURetgEpYc3wVeanFNbtMNUCQJJKMDFxE8xxJxc=";
 
 /// Views of the table on a page.

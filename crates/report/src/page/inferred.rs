@@ -3,7 +3,6 @@
 use serde_json::Value as Json;
 
 use crate::document::{Document, Section};
-use crate::table::Align;
 use pushplan::recording::{RecordedFrame, Recording};
 use pushplan::{outcome::Frame, scene::State};
 use pushplan_act::belief::Belief;
@@ -65,10 +64,10 @@ pub fn recording_page(
         columns: Vec::new(),
         choice: Vec::new(),
         candidates: None,
+        found: found(document),
         run: Some(Run {
             kind: "Recording",
             words: "Initial belief, updated after every observation.",
-            found: found(document),
             columns: Vec::new(),
             numeric: Vec::new(),
             made: Vec::new(),
@@ -88,16 +87,8 @@ pub fn recording_page(
 fn found(document: &Document) -> Vec<Found> {
     let shown = document.sections.iter().filter(|section| !section.table.is_empty());
     let table = |section: &Section| {
-        let columns = section.table.columns();
-        Found {
-            title: match section.title.as_str() {
-                "" => "Final belief".to_owned(),
-                title => title.to_owned(),
-            },
-            columns: columns.iter().map(|(name, _)| name.clone()).collect(),
-            numeric: columns.iter().map(|(_, side)| *side == Align::Right).collect(),
-            rows: section.table.rows().to_vec(),
-        }
+        let title = if section.title.is_empty() { "Final belief" } else { &section.title };
+        Found::of(title, &section.table)
     };
     shown.map(table).collect()
 }

@@ -10,6 +10,7 @@
 mod believed;
 mod candidates;
 mod data;
+mod design;
 mod html;
 mod inferred;
 mod recipe;
@@ -21,10 +22,11 @@ mod space;
 mod stage;
 mod units;
 
+pub use design::design_page;
 pub use html::PageView;
 pub use inferred::recording_page;
 pub use recipe::{Origin, Recipe, Setting, TaskSource};
-pub use replayed::{prediction_page, verdict_page};
+pub use replayed::{plan_stage, prediction_page, verdict_page};
 pub use run::run_page;
 pub use solution::solution_page;
 pub use stage::task_stage;

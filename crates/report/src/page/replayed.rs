@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use serde_json::Value as Json;
+use serde_json::{Value as Json, json};
 
 use crate::number::millimetres;
 use crate::plan_picture::space_figures;
@@ -61,7 +61,7 @@ pub(super) fn shown_replay(
     (layer, trajectory, reached): (Layer, &Trajectory, bool),
 ) -> Option<Replay> {
     if trajectory.outcome().space.is_some() {
-        return space::replay(layer, task, (plan, tools), trajectory, reached);
+        return space::replay(layer, task, plan, trajectory, reached);
     }
     let mut replay = replay(layer, trajectory, reached)?;
     let goal = &task.goals[0];
@@ -157,6 +157,7 @@ impl<'a> Making<'a> {
             columns: Vec::new(),
             choice: Vec::new(),
             candidates: None,
+            found: Vec::new(),
             run: None,
             warnings: Vec::new(),
             file: File { schema_version: PLAN_VERSION, task: Json::Null },
@@ -219,14 +220,7 @@ impl<'a> Making<'a> {
         if in_space {
             self.data.measure = Some(space::measure(plan));
         }
-        let strokes = match in_space {
-            true => space::strokes(plan, tools, &index),
-            false => {
-                let motions = plan.slides(tools).unwrap_or_default();
-                let own = |motion: &ToolMotion| strokes(motion, index(&motion.tool.name));
-                motions.iter().flat_map(own).collect()
-            }
-        };
+        let strokes = strokes_of(self.task, (plan, tools), &index);
         self.data.plans.push(data::Plan {
             tool: first,
             tools: known,
@@ -246,6 +240,34 @@ impl<'a> Making<'a> {
         let last = self.data.plans.len() - 1;
         &mut self.data.plans[last]
     }
+}
+
+/// Returns the strokes of a plan, with the indices of tools by name.
+fn strokes_of(
+    task: &Task,
+    (plan, tools): (&Plan, &[Arc<Tool>]),
+    index: &dyn Fn(&str) -> usize,
+) -> Vec<Stroke> {
+    if is_in_space(task, plan) {
+        return space::strokes(plan, tools, index);
+    }
+    let motions = plan.slides(tools).unwrap_or_default();
+    let own = |motion: &ToolMotion| strokes(motion, index(&motion.tool.name));
+    motions.iter().flat_map(own).collect()
+}
+
+/// Returns tools, strokes and hand of a plan as JSON, for drawing outside the page: lengths in
+/// hundredths of a millimetre, angles in ten-thousandths of a radian. A plan with lever-ups has no
+/// strokes.
+pub fn plan_stage(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Json {
+    let index = |name: &str| tools.iter().position(|tool| tool.name == name).unwrap_or(0);
+    let strokes = match plan.levers() {
+        true => Vec::new(),
+        false => strokes_of(task, (plan, tools), &index),
+    };
+    let drawn: Vec<data::Tool> = tools.iter().map(|tool| stage::tool(tool, Json::Null)).collect();
+    let hand = tools.first().and_then(|tool| stage::hand(task, tool, plan));
+    json!({"tools": drawn, "strokes": strokes, "hand": hand})
 }
 
 /// Returns the strokes of a motion with the tool of this index.

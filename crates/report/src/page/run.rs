@@ -67,7 +67,6 @@ fn run(trace: &Trace, starts: &[f64]) -> Run {
     Run {
         kind: "Run",
         words: "Initial belief, updated after every push.",
-        found: Vec::new(),
         columns: table.columns().iter().map(|(name, _)| name.clone()).collect(),
         numeric: table.columns().iter().map(|(_, side)| *side == Align::Right).collect(),
         made: rows.map(|(cells, at)| Made { at: fine(*at), cells: cells.clone() }).collect(),

@@ -14,7 +14,7 @@ use pushplan::{
 };
 
 use super::candidates::{candidates, frequent};
-use super::data::{Choice, Layer, Standing};
+use super::data::{Choice, Data, Layer, Standing};
 use super::html::{self, PageView};
 use super::recipe::Recipe;
 use super::replay::{ends, replays};
@@ -32,6 +32,16 @@ pub fn solution_page(
     recipe: &dyn Fn(&RankedPlan) -> Recipe,
     view: PageView,
 ) -> String {
+    html::page(&solved(task, solution, nominal, recipe), view)
+}
+
+/// Returns the content of the page of a solution.
+pub(super) fn solved(
+    task: &Task,
+    solution: &Solution,
+    nominal: &Verdict,
+    recipe: &dyn Fn(&RankedPlan) -> Recipe,
+) -> Data {
     let mut making = Making::of(task, headline(task, solution));
     making.data.drawing =
         solution.best().and_then(|best| making.drawing(&best.plan, &best.tools, nominal));
@@ -62,10 +72,15 @@ pub fn solution_page(
     }
     making.data.candidates = candidates(solution);
     making.data.warnings = warning_lines(&solution.warnings);
-    html::page(&making.data, view)
+    making.data
 }
 
-fn cells(task: &Task, ranked: &RankedPlan, replayed: Option<&Verdict>, why: String) -> Vec<String> {
+pub(super) fn cells(
+    task: &Task,
+    ranked: &RankedPlan,
+    replayed: Option<&Verdict>,
+    why: String,
+) -> Vec<String> {
     let error = |outcome: Option<&Outcome>| {
         outcome.map_or(NONE.to_owned(), |outcome| {
             match (outcome.state.space.is_some(), outcome.reached) {
@@ -100,7 +115,7 @@ fn fewest(verdict: &Verdict) -> Option<(usize, usize, Engine)> {
 
 /// Describes the result of the plan of rank `k`: the verdict for the first plan, otherwise the
 /// reason why it is not first.
-fn why(task: &Task, solution: &Solution, k: usize) -> String {
+pub(super) fn why(task: &Task, solution: &Solution, k: usize) -> String {
     let ranked = &solution.plans[k];
     let Some(verdict) = &ranked.verdict else {
         return match (ranked.plan.is_empty(), ranked.outcome.reached) {
@@ -125,7 +140,7 @@ fn why(task: &Task, solution: &Solution, k: usize) -> String {
 }
 
 /// Returns all offered tools: those with a plan first, then by predicted score.
-fn choice(solution: &Solution) -> Vec<Choice> {
+pub(super) fn choice(solution: &Solution) -> Vec<Choice> {
     let mut found: Vec<(Option<usize>, f64, Choice)> = Vec::new();
     for (index, tool) in solution.tools.iter().enumerate() {
         let own = |push: &&ScoredPush| push.tool == index;

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use pushplan::geometry::{Pose3, Vector3};
+use pushplan::geometry::Pose3;
 use pushplan::{
     outcome::{Frame, Trajectory},
     scene::{Plate, Tool},
-    task::{Plan, Step, Task},
+    task::{LeverStep, Lift, Plan, Step, Task, lever_frame},
 };
 
 use super::data::{Layer, Measure, Replay, Stroke, fine, length, pose};
@@ -41,7 +41,7 @@ pub fn measure(plan: &Plan) -> Measure {
 pub fn replay(
     layer: Layer,
     task: &Task,
-    (plan, tools): (&Plan, &[Arc<Tool>]),
+    plan: &Plan,
     trajectory: &Trajectory,
     reached: bool,
 ) -> Option<Replay> {
@@ -64,12 +64,10 @@ pub fn replay(
         // An unused tool is stored below the table, out of sight.
         _ => Pose3::upright(frame.tool, -1.0),
     };
-    let edge = edge(task, plan, tools);
-    let height = |frame: &Frame| match edge {
-        Some((object, edge)) => at(frame, object).point(edge).z,
-        None => task.levered().error(&frame.state),
+    let measured: Vec<f64> = match plan.levers() {
+        true => raised(task, plan, &frames, &trajectory.lifts, &at),
+        false => frames.iter().map(|frame| task.levered().error(&frame.state)).collect(),
     };
-    let before = edge.map_or(0.0, |_| height(frames[0]));
     Some(Replay {
         layer,
         by: trajectory.by.to_string(),
@@ -79,18 +77,45 @@ pub fn replay(
         tool: columns(frames.iter().map(|frame| tool(frame))),
         objects: (0..objects).map(|k| columns(frames.iter().map(|frame| at(frame, k)))).collect(),
         graph: Vec::new(),
-        measure: frames.iter().map(|frame| length(height(frame) - before)).collect(),
+        measure: measured.into_iter().map(length).collect(),
     })
 }
 
-/// Returns the first levered object, and the lever point in its frame.
-fn edge(task: &Task, plan: &Plan, tools: &[Arc<Tool>]) -> Option<(usize, Vector3)> {
-    let step = plan.lever_steps().next()?;
-    let tool = tools.iter().find(|tool| tool.name == step.tool)?;
-    tool.blade()?;
-    let plate = Plate::of(&task.scene, step.lever.plate);
-    let point = step.lever.frame_on(&plate).position;
-    Some((step.lever.plate, plate.start().local_point(point)))
+/// Returns the height (metres) to which the edge of the lever-up in progress, or of the last one,
+/// is raised in every frame. From the end of the rotation on, it is the height that tables state.
+fn raised(
+    task: &Task,
+    plan: &Plan,
+    frames: &[&Frame],
+    lifts: &[Lift],
+    at: &dyn Fn(&Frame, usize) -> Pose3,
+) -> Vec<f64> {
+    let mut heights = vec![0.0; frames.len()];
+    for ((index, step), k) in lever_steps(plan).zip(0..) {
+        let Some(first) = frames.iter().position(|frame| frame.stroke == index) else { break };
+        let plate = Plate::of(&task.scene, step.lever.plate);
+        let edge = lever_frame(plate.corners(), step.lever.place).position;
+        // The frame at the change of steps is the rest before the lever-up.
+        let start = at(frames[first.saturating_sub(1)], step.lever.plate);
+        let end = frames[first].time + step.lever.turn_time();
+        let mut last = 0.0;
+        for (height, frame) in heights.iter_mut().zip(frames).skip(first) {
+            if frame.stroke == index && frame.time < end {
+                last = Lift::height(&start, &at(frame, step.lever.plate), edge);
+            } else if let Some(lift) = lifts.get(k) {
+                last = lift.raised;
+            }
+            *height = last;
+        }
+    }
+    heights
+}
+
+fn lever_steps(plan: &Plan) -> impl Iterator<Item = (usize, &LeverStep)> {
+    plan.steps.iter().enumerate().filter_map(|(k, step)| match step {
+        Step::LeverUp(step) => Some((k, step)),
+        Step::Push(_) => None,
+    })
 }
 
 /// Returns the columns of 3-D poses: x, y, zero instead of a heading, z, and the quaternion of the

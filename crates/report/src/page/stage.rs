@@ -5,11 +5,11 @@ use serde_json::Value as Json;
 use crate::plan_text::goal_line;
 use pushplan::geometry::{Footprint, Shape, Vector};
 use pushplan::{
-    scene::{self, Blade, Carried, Plate, SHOWN_HAND, Scene, Slab},
+    scene::{self, Blade, Carried, Plate, Robot, SHOWN_HAND, Scene, Slab},
     task::{self, Mark, Plan, ShownGoal, Task},
 };
 
-use super::data::{Area, Band, Body, Goal, Outline, Stage, Tool, fine, length, point, pose};
+use super::data::{Arc, Area, Band, Body, Goal, Outline, Stage, Tool, fine, length, point, pose};
 
 /// Returns scene, reach and goals of a task.
 pub fn stage(task: &Task) -> Stage {
@@ -33,6 +33,7 @@ fn drawn(shown: &ShownGoal, task: &Task) -> Goal {
         bands: Vec::new(),
         covers: Vec::new(),
         edges: Vec::new(),
+        arc: None,
         heading: None,
         middle: None,
         alike: 1,
@@ -53,8 +54,15 @@ fn drawn(shown: &ShownGoal, task: &Task) -> Goal {
                 goal.covers.extend(pieces.iter().map(|piece| points(piece)));
             }
             Mark::Edge(ends) => goal.edges.push(ends.map(point)),
-            Mark::Headings { heading, tolerance, limit_middle, symmetry } => {
+            Mark::Headings { heading, tolerance, limit_middle, symmetry, swing } => {
                 goal.heading = Some([fine(*heading), fine(*tolerance)]);
+                goal.arc = swing.map(|swing| Arc {
+                    centre: point(swing.hinge),
+                    radius: length(swing.radius),
+                    from: fine(swing.from),
+                    to: fine(swing.to),
+                    tolerance: fine(*tolerance),
+                });
                 goal.middle = limit_middle.map(fine);
                 goal.alike = *symmetry;
             }
@@ -90,6 +98,7 @@ pub fn table(scene: &Scene) -> Stage {
         shape: outline(&object.shape),
         height: length(object.shape.height()),
         under: length(object.span()[0]),
+        base: false,
         whole: (object.is_part() && !in_space).then(|| scene.thing(k)),
         more: match in_space {
             true => Plate::of(scene, k).slabs[1..].iter().map(slab).collect(),
@@ -102,6 +111,7 @@ pub fn table(scene: &Scene) -> Stage {
         shape: outline(&obstacle.shape()),
         height: length(obstacle.size[2]),
         under: length(obstacle.z),
+        base: obstacle.name.starts_with(Robot::BASE),
         whole: None,
         more: Vec::new(),
         at: pose(&obstacle.pose),
@@ -111,6 +121,7 @@ pub fn table(scene: &Scene) -> Stage {
         shape: outline(&region.shape),
         height: 0,
         under: 0,
+        base: false,
         whole: None,
         more: Vec::new(),
         at: pose(&region.pose),
@@ -132,6 +143,7 @@ pub fn tool(tool: &scene::Tool, file: Json) -> Tool {
         shape: outline(&part.shape),
         height: length(part.shape.height()),
         under: 0,
+        base: false,
         whole: None,
         more: Vec::new(),
         at: pose(&part.pose),
@@ -143,6 +155,7 @@ pub fn tool(tool: &scene::Tool, file: Json) -> Tool {
         shape: outline(&Shape::Cuboid { size: [long, width, thickness] }),
         height: length(thickness),
         under: length(-0.5 * thickness),
+        base: false,
         whole: None,
         more: Vec::new(),
         at: [0; 3],
@@ -165,6 +178,7 @@ pub fn hand(task: &Task, tool: &scene::Tool, plan: &Plan) -> Option<Body> {
         shape: Outline::Disc(length(radius)),
         height: length(SHOWN_HAND),
         under: length(from - plan.lift()),
+        base: false,
         whole: None,
         more: Vec::new(),
         at: pose(&at),
@@ -178,6 +192,7 @@ fn slab(slab: &Slab) -> Body {
         shape: Outline::Polygon(slab.corners.iter().map(|corner| point(*corner)).collect()),
         height: length(slab.height),
         under: length(slab.bottom),
+        base: false,
         whole: None,
         more: Vec::new(),
         at: [0; 3],

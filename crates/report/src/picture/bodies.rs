@@ -6,7 +6,7 @@ use crate::svg::{Anchor, Font, Style, Svg};
 use pushplan::geometry::{Pose, Shape, Vector, wrap_angle};
 use pushplan::{
     scene::{Object, Robot, Scene},
-    task::{Mark, ShownGoal},
+    task::{Mark, ShownGoal, Swing},
 };
 
 use super::{legend::Sample, palette, view::View};
@@ -16,6 +16,8 @@ use super::{legend::Sample, palette, view::View};
 const STILL: f64 = 5e-4;
 /// Smallest rotation that is drawn, radians, about half a degree.
 const STILL_TURN: f64 = 0.01;
+/// Largest angle between the points of a drawn arc, radians.
+const ARC_STEP: f64 = 0.05;
 
 /// Draws the annulus within reach of the end effector, with the robot's base in its centre.
 pub fn reach(svg: &mut Svg, view: &View, robot: &Robot) {
@@ -73,6 +75,9 @@ pub fn goal(svg: &mut Svg, view: &View, goal: &ShownGoal) {
     });
     for mark in &goal.marks {
         match mark {
+            Mark::Headings { tolerance, swing: Some(swing), .. } => {
+                arc(svg, view, swing, *tolerance);
+            }
             Mark::Headings { heading, tolerance, symmetry, .. } => {
                 // The wedge must be visible beyond a small tolerance circle.
                 let length = radius.unwrap_or(0.0).max(34.0) + 10.0;
@@ -115,6 +120,27 @@ fn wedges(
         svg.polygon(&wedge, Style::fill(palette::GOAL).opacity(0.22));
     }
     svg.arrow(centre, at(heading), 8.0, palette::GOAL, 1.6);
+}
+
+/// Draws the accepted angles of a hinged object as a sector about its hinge, and the way of its far
+/// end as an arrow.
+fn arc(svg: &mut Svg, view: &View, swing: &Swing, tolerance: f64) {
+    let at =
+        |angle: f64| view.map(swing.hinge + swing.radius * Vector::new(angle.cos(), angle.sin()));
+    let along = |from: f64, to: f64| -> Vec<Vector> {
+        let count = ((to - from).abs() / ARC_STEP).ceil().max(1.0) as usize;
+        (0..=count).map(|k| at(from + (to - from) * k as f64 / count as f64)).collect()
+    };
+    let hinge = view.map(swing.hinge);
+    let accepted = along(swing.to - tolerance, swing.to + tolerance);
+    let sector: Vec<Vector> = std::iter::once(hinge).chain(accepted).collect();
+    svg.polygon(&sector, Style::fill(palette::GOAL).opacity(0.22));
+    let way = along(swing.from, swing.to);
+    svg.polyline(&way, palette::GOAL_RIM.dashed("6 3"));
+    if let [.., before, end] = way[..] {
+        svg.arrow(before, end, 8.0, palette::GOAL, 1.6);
+    }
+    svg.circle(hinge, 4.0, palette::GOAL_RIM);
 }
 
 /// Draws lines from the end of a goal's object to the missed positions.
@@ -229,7 +255,8 @@ mod tests {
     use super::super::view::Bounds;
     use super::*;
     use pushplan::geometry::ConvexPolygon;
-    use pushplan::task::Goal;
+    use pushplan::scene::JointKind;
+    use pushplan::task::{Demand, Facing, Goal};
 
     #[test]
     fn a_prism_has_its_corners_and_a_mark_ahead_and_a_goal_a_wedge_for_each_heading() {
@@ -259,5 +286,28 @@ mod tests {
             svg.finish().matches(r#"opacity="0.22""#).count()
         };
         assert_eq!((wedges(&facing), wedges(&facing.looking_like(&square))), (1, 4));
+    }
+    #[test]
+    fn the_goal_of_a_door_is_a_sector_about_its_hinge_with_the_way_of_its_far_end() {
+        // A door of 0.3 m along x, hinged at its left end, that opens by a quarter turn.
+        let door = Object::cuboid("door", [0.3, 0.02, 0.1]).at(0.65, 0.0, 0.0);
+        let hinge = Vector::new(0.5, 0.0);
+        let kind = JointKind::Revolute { at: hinge, limits: None };
+        let scene = Scene::new([door]).with_mount(0, kind);
+        let [low, high] = [[0.4, -0.1], [0.9, 0.4]].map(|[x, y]| Vector::new(x, y));
+        let view = View::fit(Bounds { low, high }, Vector::zeros());
+        let facing = Facing::new(std::f64::consts::FRAC_PI_2, 0.1);
+        let wanted = Goal::of(0).with(Demand::Heading(facing));
+        let mut svg = Svg::new(100.0, 100.0, "a goal");
+        goal(&mut svg, &view, &wanted.shown(&scene));
+        let svg = svg.finish();
+        let [at, end] = [hinge, hinge + Vector::new(0.0, 0.3f64.hypot(0.01))].map(|p| view.map(p));
+        let circle = format!(r#"<circle cx="{:.2}" cy="{:.2}" r="4""#, at.x, at.y);
+        assert!(svg.contains(&circle), "{svg}");
+        // The sector begins at the hinge, and the way ends at the far end's wanted position.
+        assert!(svg.contains(&format!(r#"<polygon points="{:.2},{:.2} "#, at.x, at.y)), "{svg}");
+        let way = svg.split("<polyline points=\"").nth(1).and_then(|rest| rest.split('"').next());
+        let last = way.and_then(|points| points.split(' ').next_back());
+        assert_eq!(last, Some(&*format!("{:.2},{:.2}", end.x, end.y)), "{svg}");
     }
 }

@@ -42,6 +42,7 @@ impl Extent<'_> {
                 match mark {
                     Mark::Area(area) => bounds.add_body(&area.shape.footprint(), &area.pose),
                     Mark::Disc { centre, radius } => bounds.add(*centre, *radius),
+                    Mark::Headings { swing: Some(swing), .. } => bounds.add(swing.end(), 0.0),
                     _ => {}
                 }
             }
