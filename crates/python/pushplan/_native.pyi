@@ -1,13 +1,16 @@
-# Types of the compiled part of the package, whose own docstrings describe classes and functions.
+# Types of the compiled part of the package. The docstrings are those of the module, copied by
+# `python crates/python/tests/stub_docs.py`.
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Literal, Protocol, final, type_check_only
 
 import numpy as np
 import numpy.typing as npt
+from typing_extensions import Never
 
 from .files import TaskFile, ToolFile
+from .progress import Progress
 
 __all__ = [
     "Belief",
@@ -53,6 +56,7 @@ _Path = str | os.PathLike[str]
 _Floats = npt.NDArray[np.float64]
 _Effort = Literal["draft", "standard", "thorough"]
 _OutOfRange = Literal["warn", "simulate", "refuse"]
+_Progress = bool | Callable[[Progress], object] | None
 _Status = Literal["solved", "fragile", "partial", "no_plan", "failed_verification"]
 
 @final
@@ -80,6 +84,7 @@ class TableFit:
 
 @final
 class Tool:
+    def __new__(cls, *_arguments: Never, **_named: Never) -> Tool: ...
     @staticmethod
     def load(path: _Path) -> Tool: ...
     @staticmethod
@@ -101,6 +106,7 @@ class Tool:
 
 @final
 class ToolLibrary:
+    def __new__(cls, *_arguments: Never, **_named: Never) -> ToolLibrary: ...
     @staticmethod
     def shipped() -> ToolLibrary: ...
     @staticmethod
@@ -119,6 +125,7 @@ class ToolLibrary:
 
 @final
 class Task:
+    def __new__(cls, *_arguments: Never, **_named: Never) -> Task: ...
     @staticmethod
     def load(path: _Path, tools: ToolLibrary | None = None) -> Task: ...
     @staticmethod
@@ -238,6 +245,7 @@ class Trajectory:
 
 @final
 class Plan:
+    def __new__(cls, *_arguments: Never, **_named: Never) -> Plan: ...
     @staticmethod
     def load(path: _Path) -> Plan: ...
     @staticmethod
@@ -263,6 +271,8 @@ class Plan:
     def levers(self) -> bool: ...
     @property
     def pushes(self) -> list[Push]: ...
+    @property
+    def push_array(self) -> _Floats: ...
     @property
     def grip_yaw(self) -> float: ...
     @property
@@ -395,6 +405,7 @@ class Rollouts:
 
 @final
 class Recording:
+    def __new__(cls, *_arguments: Never, **_named: Never) -> Recording: ...
     @staticmethod
     def load(path: _Path) -> Recording: ...
     @staticmethod
@@ -482,6 +493,7 @@ def run(
     fit: TableFit | None = None,
     regulator: bool = True,
     threads: int = 0,
+    progress: _Progress = None,
 ) -> Run: ...
 def solve(
     task: Task,
@@ -496,6 +508,7 @@ def solve(
     time_limit: float | None = None,
     fit: TableFit | None = None,
     threads: int = 0,
+    progress: _Progress = None,
 ) -> Solution: ...
 def solve_all(
     tasks: Sequence[Task],
@@ -510,6 +523,7 @@ def solve_all(
     time_limit: float | None = None,
     fit: TableFit | None = None,
     threads: int = 0,
+    progress: _Progress = None,
 ) -> list[Solution]: ...
 def design(
     task: Task,
@@ -521,6 +535,7 @@ def design(
     seed: int = 0,
     time_limit: float | None = None,
     threads: int = 0,
+    progress: _Progress = None,
 ) -> Design: ...
 def predict(
     plan: Plan, model: str = "network", *, out_of_range: _OutOfRange = "warn", threads: int = 0
