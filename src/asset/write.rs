@@ -1,6 +1,5 @@
 //! Atomic writing of files: a partial file never appears under the final name.
 
-use std::error::Error as _;
 use std::io::{Error, Write};
 use std::path::Path;
 
@@ -56,7 +55,9 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let missing = folder.path().join("missing");
         let Faults(faults) = write_atomic(missing.join("plan.json"), b"{}").expect_err("no folder");
-        assert!(faults[0].message.ends_with(&format!("there is no folder `{}`", missing.display())));
+        assert!(
+            faults[0].message.ends_with(&format!("there is no folder `{}`", missing.display()))
+        );
         assert!(faults[0].advice.starts_with("create the folder"));
     }
 

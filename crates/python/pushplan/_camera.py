@@ -157,7 +157,18 @@ class Camera:
             )
 
     def project(self, points: Floats) -> Floats:
-        """Projects points of the table's frame, ``[points, 3]``, to pixels, ``[points, 2]``."""
+        """Projects points of the table's frame to pixels.
+
+        Parameters
+        ----------
+        points : ndarray, ``[points, 3]``
+            Points, metres.
+
+        Returns
+        -------
+        ndarray, ``[points, 2]``
+            Positions in the image, pixels.
+        """
         cv2 = opencv()
         seen, _ = cv2.projectPoints(
             points @ self.turn.T + self.shift, np.zeros(3), np.zeros(3),
@@ -166,8 +177,19 @@ class Camera:
         return np.asarray(seen, float).reshape(-1, 2)
 
     def slopes(self, points: Floats) -> tuple[Floats, Floats]:
-        """Returns the derivatives of the projection by the points, ``[points, 2, 3]``, and by a
-        rotation and a translation of the camera in its frame, ``[2 points, 6]``."""
+        """Returns the derivatives of the projection.
+
+        Parameters
+        ----------
+        points : ndarray, ``[points, 3]``
+            Points in the table's frame, metres.
+
+        Returns
+        -------
+        tuple of ndarray
+            Derivatives by the points, ``[points, 2, 3]``, and by a rotation and a translation of
+            the camera in its frame, ``[2 points, 6]``; pixels per metre and per radian.
+        """
         step = 1e-6
         by_point = np.empty((len(points), 2, 3))
         for k in range(3):

@@ -274,7 +274,18 @@ class SteerEnv(TableEnv):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Action, dict[str, Any]]:
-        """Resets the objects and the tool to the start, and draws the goal."""
+        """Resets the objects and the tool to the start, and draws the goal.
+
+        Parameters
+        ----------
+        seed, options
+            See :meth:`PushEnv.reset`.
+
+        Returns
+        -------
+        tuple of ndarray and dict
+            Observation, and ``info`` with the keys of :meth:`step`.
+        """
         self._hand = self._begin
         return super().reset(seed=seed, options=options)
 

@@ -77,7 +77,18 @@ class Tag:
             check_place("position", self.position, 3)
 
     def corners(self, height: float) -> Floats:
-        """Returns the corners in the object's frame, in detectors' order, metres: ``[4, 3]``."""
+        """Returns the corners in the object's frame, in detectors' order.
+
+        Parameters
+        ----------
+        height : float
+            Height of the object, metres, at which a tag without ``position`` lies.
+
+        Returns
+        -------
+        ndarray, ``[4, 3]``
+            Corners, metres.
+        """
         turn = about_z(self.yaw) if self.turn is None else np.asarray(self.turn, float)
         middle = np.array((0.0, 0.0, height) if self.position is None else self.position)
         return middle + square(self.size) @ turn.T

@@ -194,7 +194,8 @@ impl PyPlan {
     #[getter]
     fn push_array<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let pushes = self.file.plan.pushes();
-        let row = |push: &Push| [push.start.x, push.start.y, push.direction, push.length, push.speed];
+        let row =
+            |push: &Push| [push.start.x, push.start.y, push.direction, push.length, push.speed];
         arrays::array(py, pushes.iter().flat_map(row).collect(), [pushes.len(), 5])
     }
 

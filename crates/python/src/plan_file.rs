@@ -55,7 +55,9 @@ impl PyPlan {
     ) -> PyResult<Self> {
         let stated = &task.task;
         let situation = Situation::stated(&stated.scene);
-        let asked = work::run(py, 0, |_| manual_plan(stated, &situation, &tool, yaws, pushes))?;
+        let plan = || manual_plan(stated, &situation, &tool, yaws, pushes);
+        // Only the pushes after the first are simulated.
+        let asked = if pushes.len() > 1 { work::run(py, 0, |_| plan())? } else { plan() };
         let asked = asked.map_err(|error| errors::action(py, &error.to_string()))?;
         let rules =
             rule_violations(stated, &stated.scene, std::slice::from_ref(&tool), &asked.plan);

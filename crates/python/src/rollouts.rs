@@ -253,10 +253,8 @@ fn candidates(pushes: &Bound<'_, PyAny>) -> PyResult<Vec<Vec<Push>>> {
         _ => all,
     };
     if all.ndim() != 3 || all.len_of(Axis(2)) != COLUMNS || all.len_of(Axis(1)) == 0 {
-        let message = format!(
-            "`pushes` must have the shape {shape}, found {:?}",
-            pushes.as_array().shape()
-        );
+        let message =
+            format!("`pushes` must have the shape {shape}, found {:?}", pushes.as_array().shape());
         return Err(PyValueError::new_err(message));
     }
     for direction in all.index_axis(Axis(2), 2) {
@@ -284,7 +282,7 @@ fn yaws(given: Option<&Bound<'_, PyAny>>, candidates: usize) -> PyResult<Vec<f64
     let Some(given) = given else { return Ok(vec![0.0; candidates]) };
     let given = arrays::numbers_of("grip_yaw", given, "[] or [candidates]")?;
     let given = given.as_array();
-    for yaw in given {
+    for yaw in &given {
         arguments::angle("grip_yaw", *yaw)?;
     }
     match given.shape() {

@@ -224,9 +224,8 @@ pub fn run(
     let noise = match noise {
         Some((position, heading)) if position > 0.0 && heading > 0.0 => Noise { position, heading },
         Some(found) => {
-            let message = format!(
-                "`noise` must be two numbers above 0, metres and radians, found {found:?}"
-            );
+            let message =
+                format!("`noise` must be two numbers above 0, metres and radians, found {found:?}");
             return Err(PyValueError::new_err(message));
         }
         None => defaults.noise,

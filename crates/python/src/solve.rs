@@ -100,9 +100,8 @@ pub fn solve(
     let library = given(py, tools.as_ref())?;
     let (task, observer) = (task.get(), Observer::of(py, progress)?);
     let stated = stated(task.robust(robustness), fit);
-    let solved = work::follow(py, threads, &observer, |watch| {
-        planner.solve_with(&stated, &library, watch)
-    })?;
+    let solved =
+        work::follow(py, threads, &observer, |watch| planner.solve_with(&stated, &library, watch))?;
     solution(py, stated, task.source(), solved, &planner)
 }
 

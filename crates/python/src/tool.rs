@@ -81,8 +81,8 @@ impl PyTool {
     ///
     /// Examples
     /// --------
-    /// >>> text = "parts: [{name: bar, size: [0.2, 0.04, 0.05], position: [0.1, 0]}]"
-    /// >>> tool = pushplan.Tool.parse(text, "short-stick")
+    /// >>> part = "{name: bar, size: [0.2, 0.04, 0.05], position: [0.1, 0]}"
+    /// >>> tool = pushplan.Tool.parse(f"{{name: rod, friction: 0.4, parts: [{part}]}}")
     #[staticmethod]
     #[pyo3(signature = (text, name = "tool"))]
     fn parse(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
@@ -111,7 +111,7 @@ impl PyTool {
     /// Examples
     /// --------
     /// >>> bar = {"name": "bar", "size": [0.2, 0.04, 0.05], "position": [0.1, 0]}
-    /// >>> tool = pushplan.Tool.from_dict({"name": "short-stick", "parts": [bar]})
+    /// >>> tool = pushplan.Tool.from_dict({"name": "rod", "friction": 0.4, "parts": [bar]})
     #[staticmethod]
     fn from_dict(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(Self(Arc::new(Text::of(mapping)?.read(py, "tool", Tool::parse)?)))

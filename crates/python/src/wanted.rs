@@ -75,9 +75,12 @@ pub fn pushes(given: &Bound<'_, PyAny>) -> PyResult<Vec<Py<PyPush>>> {
 
 /// Converts a recording.
 pub fn recording(given: &Bound<'_, PyAny>) -> PyResult<Py<PyRecording>> {
-    one("recording", "a `pushplan.Recording`", given, || {
-        "read a file with `pushplan.Recording.load(path)`, or a log with `pushplan.logs`"
-    })
+    one(
+        "recording",
+        "a `pushplan.Recording`",
+        given,
+        || "read a file with `pushplan.Recording.load(path)`, or a log with `pushplan.logs`",
+    )
 }
 
 /// Converts a sequence of recordings.
