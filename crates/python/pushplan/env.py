@@ -19,7 +19,7 @@ import gymnasium
 import numpy as np
 import numpy.typing as npt
 
-from . import Plan, Push, Task, Tool, ToolLibrary, UnknownToolError, predict
+from . import ActionError, Plan, Push, Task, Tool, ToolLibrary, UnknownToolError, predict
 from ._feasible import Request, nearest
 from ._table import Action, TableEnv
 
@@ -46,8 +46,9 @@ class PushEnv(TableEnv):
 
     If the task does not allow this push, for example because it would leave the reach, the nearest
     allowed one is executed: shorter, with another grip yaw, in another direction, without offset,
-    or with another tool. ``info["plan"]`` is the executed push. Only if no push at all is allowed,
-    nothing moves, and ``info["refused"]`` states the reason.
+    or with another tool. ``info["plan"]`` is the executed push. The episode is also terminated if
+    no further push is allowed, for example because the object is out of reach. If that is already
+    true before the push, nothing moves, and ``info["refused"]`` states the reason.
 
     An observation has, in this order,
 
@@ -177,12 +178,22 @@ class PushEnv(TableEnv):
         Returns
         -------
         tuple of ndarray, float, bool, bool and dict
-            Observation, reward, whether the goal is reached, whether the pushes are used up, and
-            ``info`` with ``score``, ``refused`` and ``plan``.
+            Observation, reward, whether the goal is reached or no further push is allowed, whether
+            the pushes are used up, and ``info`` with ``score``, ``refused`` and ``plan``.
         """
         gained, reached, refused = self._carried_out(lambda: self._plan(action))
-        truncated = self._made >= self.steps and not reached
-        return self._seen(), gained - COST, reached, truncated, self._info(refused)
+        terminated = reached or refused is not None or self._stuck()
+        truncated = self._made >= self.steps and not terminated
+        return self._seen(), gained - COST, terminated, truncated, self._info(refused)
+
+    def _stuck(self) -> bool:
+        """Returns whether no push of the target is allowed."""
+        request = Request(0, 0, 0.0, 0.0, self.task.push_length)
+        try:
+            nearest(self.task.at(self._poses), self.tools, self._target(), request)
+        except ActionError:
+            return True
+        return False
 
     def _target(self) -> str:
         """Returns the object of the first unreached goal."""

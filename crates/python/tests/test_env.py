@@ -53,18 +53,18 @@ def test_its_physics_are_those_of_predict(task: pushplan.Task) -> None:
 
 @pytest.mark.parametrize("name", ["pull-back", "pull-back-behind-wall", "crowd", "turn-the-box"])
 def test_random_actions_move_something(name: str) -> None:
-    env = pushplan.env.PushEnv(pushplan.Task.example(name), pushes=60)
+    env = pushplan.env.PushEnv(pushplan.Task.example(name))
     env.reset(seed=0)
     env.action_space.seed(0)
     refused = 0
     for _ in range(60):
-        _, _, reached, _, info = env.step(env.action_space.sample())
+        _, _, terminated, truncated, info = env.step(env.action_space.sample())
         refused += info["refused"] is not None
         assert (info["plan"] is None) == (info["refused"] is not None)
         if info["plan"] is not None:
             # The executed push violates no rule of the task.
             assert info["plan"].violations == []
-        if reached:
+        if terminated or truncated:
             env.reset()
     assert refused <= 6
 
@@ -90,10 +90,10 @@ def test_a_push_that_cannot_be_made_moves_nothing(task: pushplan.Task) -> None:
     task = pushplan.Task.from_dict(keys)
     env = pushplan.env.PushEnv(task, pushes=2)
     env.reset()
-    for last in (False, True):
-        _, reward, reached, truncated, info = env.step(env.action("stick", 0.0))
+    for _ in range(2):
+        _, reward, terminated, truncated, info = env.step(env.action("stick", 0.0))
         assert info["refused"] and info["plan"] is None and (env.poses == task.start).all()
-        assert reward == -pushplan.env.COST and not reached and truncated == last
+        assert reward == -pushplan.env.COST and terminated and not truncated
 
 
 def test_seeds_shift_starts_alike(root: Path) -> None:
