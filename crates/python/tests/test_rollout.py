@@ -109,7 +109,7 @@ def test_what_is_no_push_is_refused(task: pushplan.Task, pushes: object, message
 
 
 def test_other_mistakes_are_refused(task: pushplan.Task) -> None:
-    with pytest.raises(pushplan.ActionError, match="no tool is called `spoon`; there are"):
+    with pytest.raises(pushplan.ActionError, match="no tool is called `spoon`; use one of"):
         pushplan.rollout(task, "spoon", PUSHES)
     with pytest.raises(TypeError, match="name of one"):
         pushplan.rollout(task, 3, PUSHES)  # type: ignore[arg-type]
@@ -133,6 +133,8 @@ def test_no_candidates_are_no_rollouts(task: pushplan.Task) -> None:
 def test_wild_numbers_do_no_harm(task: pushplan.Task) -> None:
     rng = np.random.default_rng(11)
     pushes = rng.normal(0.0, 1.0, (200, 5)) * 10.0 ** rng.uniform(-6, 6, (200, 5))
+    # An angle beyond one revolution is an error.
+    pushes[:, 2] = np.remainder(pushes[:, 2], 2.0 * np.pi)
     pushes[:, 3:] = np.clip(np.abs(pushes[:, 3:]), 1e-6, 2.0)
     starts = rng.normal(0.5, 0.3, (200, 1, 3)) * 10.0 ** rng.uniform(-3, 6, (200, 1, 3))
     rolled = pushplan.rollout(task, "rake", pushes, start=starts, record="outcome")

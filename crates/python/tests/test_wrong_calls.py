@@ -12,12 +12,14 @@ import pytest
 
 import pushplan
 import pushplan.env
-from pushplan import lerobot, logs
+import pushplan.logs
+from pushplan import lerobot
 
 # Arguments are wrong on purpose, so that types are not checked.
 pp: Any = pushplan
 env: Any = pushplan.env
 saved: Any = lerobot.save
+logs: Any = pushplan.logs
 BOX = {"name": "box", "shape": {"cuboid": {"size": [0.1, 0.1, 0.05]}}, "mass": 0.5}
 
 #: Name, call with a task, and a text of the message that states what to do instead.
@@ -151,7 +153,7 @@ CALLS: dict[str, tuple[Callable[[Any], Any], type[Exception], str]] = {
     "unknown unit of a log": (
         lambda t: logs.read_csv(
             "a.csv", scene={"objects": [BOX]}, pusher={}, time="t", poses={}, length="km"
-        ),  # type: ignore[arg-type]
+        ),
         ValueError,
         "must be m/cm/mm/in",
     ),
@@ -194,6 +196,7 @@ def hooks() -> Any:
 
 
 # Calls of `pushplan.poses`, which needs OpenCV.
+BLANK = np.full((480, 640), 255, np.uint8)
 CAMERA = np.array([[600.0, 0.0, 320.0], [0.0, 600.0, 240.0], [0.0, 0.0, 1.0]])
 DOWN = np.array([[0, -1, 0], [-1, 0, 0], [0, 0, -1]])
 LOOKS: dict[str, tuple[Callable[[Any, Any], Any], str]] = {
@@ -224,7 +227,6 @@ LOOKS: dict[str, tuple[Callable[[Any, Any], Any], str]] = {
         "it has can",
     ),
 }
-BLANK = np.full((480, 640), 255, np.uint8)
 
 
 @pytest.mark.parametrize("name", LOOKS)
