@@ -609,7 +609,7 @@ class Push:
         Position of the end effector at the start, `[x, y]` in metres. With `None` the push starts
         where the last one ended, or at the robot's home (chained pushes only).
     direction : float
-        Direction of travel, radians from world +x, -2 pi to 2 pi.
+        Direction of travel, radians from world +x, -4 pi to 4 pi.
     length : float, optional
         Travel, metres, above 0 and at most 2; by default the task's.
     speed : float, optional

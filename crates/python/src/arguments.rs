@@ -151,15 +151,14 @@ pub fn frame(given: &Bound<'_, PyAny>) -> PyResult<usize> {
     Ok(whole("frame", given, 0..=u32::MAX.into(), ", counted from the start")? as usize)
 }
 
-/// Checks an angle in radians. An angle beyond one revolution is an error, because it is likely in
-/// degrees.
+/// Checks an angle in radians. An angle beyond two revolutions is an error, because it is likely in
+/// degrees; headings that count revolutions may be beyond one.
 pub fn angle(name: &str, radians: f64) -> PyResult<f64> {
-    // Sums of fractions of a revolution may be slightly larger.
-    if radians.abs() <= std::f64::consts::TAU + 1e-6 {
+    if radians.abs() <= 2.0 * std::f64::consts::TAU {
         return Ok(radians);
     }
     Err(PyValueError::new_err(format!(
-        "`{name}` must be an angle from -2 pi to 2 pi radians, found {radians}; convert degrees \
+        "`{name}` must be an angle from -4 pi to 4 pi radians, found {radians}; convert degrees \
          with `math.radians`"
     )))
 }

@@ -111,7 +111,7 @@ impl PyPlan {
     /// pushes : sequence of Push
     ///     Pushes, in order. A push that violates a rule of the task is allowed; see `violations`.
     /// grip_yaw : float, optional
-    ///     Rotation of the end effector against world +x, radians, -2 pi to 2 pi; by default the
+    ///     Rotation of the end effector against world +x, radians, -4 pi to 4 pi; by default the
     ///     first grip yaw of the task with which the pushes are feasible.
     /// tools : ToolLibrary, optional
     ///     Tools for a name in `tool`; by default the tools shipped with the package.

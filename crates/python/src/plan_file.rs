@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pushplan::asset::PlanFile;
-use pushplan::solve::{ManualPush, manual_plan};
+use pushplan::solve::{ActionError, ManualPush, manual_plan};
 use pushplan::verify::{VerifySettings, rule_violations};
 use pushplan::{RankedPlan, Task, Tool, Verdict, Verifier};
 use pushplan::{
@@ -58,7 +58,14 @@ impl PyPlan {
         let plan = || manual_plan(stated, &situation, &tool, yaws, pushes);
         // Only the pushes after the first are simulated.
         let asked = if pushes.len() > 1 { work::run(py, 0, |_| plan())? } else { plan() };
-        let asked = asked.map_err(|error| errors::action(py, &error.to_string()))?;
+        let names = || stated.scene.things().map(|(_, object)| object.name.as_str());
+        let asked = asked.map_err(|error| match error {
+            ActionError::NoObject { .. } => {
+                let names: Vec<&str> = names().collect();
+                errors::action(py, &format!("{error}; use one of {}", names.join(", ")))
+            }
+            error => errors::action(py, &error.to_string()),
+        })?;
         let rules =
             rule_violations(stated, &stated.scene, std::slice::from_ref(&tool), &asked.plan);
         let forms = rules.iter().filter(|rule| {

@@ -19,7 +19,7 @@ pub const MOST: f64 = 2.0;
 ///     Position of the end effector at the start, `[x, y]` in metres. With `None` the push starts
 ///     where the last one ended, or at the robot's home (chained pushes only).
 /// direction : float
-///     Direction of travel, radians from world +x, -2 pi to 2 pi.
+///     Direction of travel, radians from world +x, -4 pi to 4 pi.
 /// length : float, optional
 ///     Travel, metres, above 0 and at most 2; by default the task's.
 /// speed : float, optional
@@ -61,7 +61,7 @@ impl PyPush {
     /// object : str
     ///     Name of the object.
     /// direction : float
-    ///     Direction of travel, radians from world +x, -2 pi to 2 pi.
+    ///     Direction of travel, radians from world +x, -4 pi to 4 pi.
     /// offset : float, default 0
     ///     Lateral offset of the object's centre from the centre line of the tool's face, metres,
     ///     positive to the left.
@@ -193,8 +193,8 @@ fn place(given: &Bound<'_, PyAny>) -> PyResult<Option<[f64; 2]>> {
     match place.filter(|place| place.iter().all(|value| value.is_finite())) {
         Some(place) => Ok(Some(place)),
         None => Err(PyValueError::new_err(format!(
-            "`start` must be two finite numbers, x and y in metres, or None to go on from the \
-             last push, found {}",
+            "`start` must be two finite numbers, x and y in metres, or None to continue from \
+             the last push, found {}",
             given.repr()?
         ))),
     }

@@ -70,7 +70,7 @@ def test_calls_are_described(name: str) -> None:
 
 @pytest.fixture(scope="module")
 def known() -> dict[str, Any]:
-    """Names that the examples use, as a user has them."""
+    """Returns the names that the examples use."""
     task = pushplan.Task.example("pull-back-behind-wall")
     solution = pushplan.solve(task, effort="draft")
     best = solution.best

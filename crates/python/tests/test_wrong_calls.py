@@ -80,6 +80,11 @@ CALLS: dict[str, tuple[Callable[[Any], Any], type[Exception], str]] = {
         ValueError,
         "math.radians",
     ),
+    "unknown object of a push": (
+        lambda t: pp.Plan.of(t, "stick", [pp.Push.before("cup", 0.0)]),
+        pushplan.ActionError,
+        "use one of can",
+    ),
     "tool from a mapping": (
         lambda t: pp.Plan.of(t, hook().to_dict(), []),
         TypeError,
