@@ -188,7 +188,8 @@ fn solve_each(
         count.one();
         solved
     };
-    tasks.par_iter().map(solve).collect()
+    // After a cancellation the results are discarded.
+    tasks.par_iter().map(|task| (!watch.cancelled()).then(|| solve(task))).while_some().collect()
 }
 
 /// Arguments of `solve` as given by the caller.
