@@ -31,6 +31,7 @@ def main() -> None:
     # x, y (m), direction (rad), length (m) and speed (m/s) of a push of the end effector.
     middle = np.array([0.10, 0.00, 0.4, 0.15, 0.10])
     spread = np.array([0.05, 0.05, 0.4, 0.05, 0.00])
+    best = middle[None]
     for _ in range(ROUNDS):
         pushes = rng.normal(middle, spread, (CANDIDATES, 5))
         pushes[:, 3] = np.clip(pushes[:, 3], 0.01, 0.5)

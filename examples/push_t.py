@@ -45,7 +45,7 @@ BEAM = 8
 SHAPE = shapely.union_all([shapely.box(-60, 0, 60, 30), shapely.box(-15, 30, 15, 120)])
 PLACES = [(x, y) for x in range(-55, 60, 10) for y in range(5, 120, 10)]
 GRID = np.array([x + 1j * y for x, y in PLACES if SHAPE.covers(shapely.Point(x, y))])
-CORNERS = np.array([complex(x, y) for x, y in SHAPE.exterior.coords[:-1]])
+CORNERS = np.array([complex(x, y) for x, y in shapely.get_coordinates(SHAPE)[:-1]])
 
 #: In the environment the centre of mass of the T lies between the centres of bar and stem, and the
 #: finger has no friction. Moving bodies stop at once, similar to a T on a table that rests on the
@@ -161,9 +161,9 @@ def pushes(poses: Floats, spots: int, slants: Floats, length: float | np.floatin
     ends = pose_of(rolled.poses[:, :, 0])
     # The finger must stay in the arena, and the T must not leave it farther than at the start.
     corners = placed(ends, CORNERS)
-    sides = np.stack([corners.real, corners.imag])
+    sides = np.stack([np.real(corners), np.imag(corners)])
     outside = np.maximum(np.maximum(WALLS[0] - sides, sides - WALLS[1]).max(axis=(0, -1)), 0.0)
-    reached = shapely.contains_xy(ARENA, tips.real, tips.imag)
+    reached = shapely.contains_xy(ARENA, np.real(tips), np.imag(tips))
     fine = np.logical_and.accumulate(reached & (outside <= outside[:, :1] + 0.5), axis=1)
     last = np.maximum(fine.sum(axis=1) - 1, 0)
     frame = np.minimum(np.arange(ends.shape[1]), last[:, None])
@@ -180,13 +180,13 @@ class Way:
         count = int(ring.length / 4.0)
         points = [ring.interpolate(index / count, normalized=True) for index in range(count)]
         self.ring = np.array([complex(point.x, point.y) for point in points])
-        self.open = shapely.contains_xy(ARENA, self.ring.real, self.ring.imag)
+        self.open = shapely.contains_xy(ARENA, np.real(self.ring), np.imag(self.ring))
         self.step = ring.length / count
 
     def clear(self, ends: npt.NDArray[np.complex128], start: complex) -> npt.NDArray[np.bool_]:
         """Returns whether straight paths from a position clear the T; they may start in contact."""
         lines = np.stack([np.full(len(ends), start), ends], axis=1)
-        straight = shapely.linestrings(np.stack([lines.real, lines.imag], axis=-1))
+        straight = shapely.linestrings(np.stack([np.real(lines), np.imag(lines)], axis=-1))
         least = min(FINGER + 1.0, gap(start, self.tee) - 0.1)
         ok: npt.NDArray[np.bool_] = shapely.distance(straight, self.tee) >= least
         return ok
@@ -318,6 +318,7 @@ class Game:
         for corner in corners:
             while not self.over and abs(corner - self.agent) > 1.0:
                 rest, least = corner - self.agent, min(FINGER + 0.5, gap(self.agent, shape) - 0.1)
+                wanted = self.agent
                 for pace in PACES:
                     wanted = self.agent + rest * min(pace / abs(rest), 1.0)
                     if gap(self.foreseen(wanted), shape) > least:

@@ -117,7 +117,7 @@ def attempt(task: pushplan.Task, world: World) -> dict[str, Any]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     parser.add_argument("--scenes", type=int, default=1)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--film", type=Path, help="file for an animation of the first scene (WebP)")

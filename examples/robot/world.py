@@ -4,6 +4,9 @@ The world replaces the robot. The planner uses only `photo` and `carry_out`. Tru
 frictions of the objects differ at random from the stated ones.
 """
 
+# The compiled parts of mujoco have no stubs.
+# pyright: reportAttributeAccessIssue=false, reportOptionalSubscript=false
+
 from __future__ import annotations
 
 import math

@@ -55,8 +55,10 @@ from .errors import (
     PushplanError,
     RefusedError,
     TaskError,
+    UnknownToolError,
 )
 from .loaded import scene_from
+from .progress import Progress
 
 __all__ = [
     "ActionError",
@@ -67,6 +69,7 @@ __all__ = [
     "ModelError",
     "Motion",
     "Plan",
+    "Progress",
     "Push",
     "PushplanError",
     "Recording",
@@ -81,6 +84,7 @@ __all__ = [
     "Tool",
     "ToolLibrary",
     "Trajectory",
+    "UnknownToolError",
     "Verdict",
     "__version__",
     "allow_files_in",

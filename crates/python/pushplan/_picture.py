@@ -19,16 +19,25 @@ _Pose = Union[Sequence[float], _Floats]
 _FINER = 2
 #: Margin around the scene, metres.
 _MARGIN = 0.12
+#: Mark of a robot without a column, metres.
+_MARK = [0.03, 0.03]
 _PAPER, _REACH, _GOAL = (255, 255, 255), (243, 245, 247), (120, 190, 120)
+_BASE = (50, 60, 80)
 _OBSTACLE, _TOOL, _WANTED, _OTHER = (90, 90, 90), (70, 120, 200), (205, 85, 60), (225, 175, 120)
 
 
 class Picture:
-    """Images of a task with the same extent: x up and y left, as seen from behind the robot."""
+    """Images of a task with the same extent: x up and y left, as seen from behind the robot.
+
+    They show the reach, the robot's base, the goal, obstacles, objects, and the tool.
+    """
 
     def __init__(self, task: Task, size: int = 256) -> None:
         mapping: Any = task.to_dict()
         self.scene, self.names = mapping["scene"], list(task.objects)
+        base = mapping["robot"].get("base")
+        #: Column of the robot, or a mark of its place.
+        self.base = {"cuboid": {"size": [2.0 * base] * 2 if isinstance(base, float) else _MARK}}
         self.reach, self.wanted, self.size = task.reach, self.names.index(task.goal_object), size
         places = [*task.start[:, :2], np.array(task.goal_position), np.zeros(2)]
         places += [np.array(thing["position"][:2]) for thing in self.scene.get("obstacles", [])]
@@ -54,6 +63,7 @@ class Picture:
         # A goal smaller than a few pixels would be invisible.
         least = 6 * abs(float(self.x[0, 0] - self.x[1, 0]))
         pixels[np.hypot(self.x - goal[0], self.y - goal[1]) <= max(tolerance, least)] = _GOAL
+        self._fill(pixels, (0.0, 0.0, 0.0), self.base, _BASE)
         for wall in self.scene.get("obstacles", []):
             pose = (*wall["position"][:2], math.radians(wall.get("yaw_deg", 0.0)))
             self._fill(pixels, pose, {"cuboid": wall}, _OBSTACLE)

@@ -13,166 +13,26 @@ The environments need the package ``gymnasium``: ``pip install 'pushplan[gym]'``
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any, ClassVar
+from typing import Any
 
 import gymnasium
 import numpy as np
 import numpy.typing as npt
 
-from . import ActionError, FileError, Plan, Push, Task, Tool, ToolLibrary, predict
-from ._picture import Picture
+from . import ActionError, Plan, Push, Task, Tool, ToolLibrary, UnknownToolError, predict
+from ._feasible import Request, nearest
+from ._table import Action, TableEnv
 
 __all__ = ["PushEnv", "SteerEnv"]
 
 #: Cost of a push, so that fewer pushes are better; reaching the goal is worth one.
 COST = 0.02
 
-#: Maximum distance of an object from the robot, metres, as in files.
-FAR = 20.0
-
-#: Maximum number of draws of starts and goals until nothing overlaps.
-TRIES = 100
-
 #: Minimum length of a move, metres.
 LEAST = 1e-4
 
-_Action = npt.NDArray[np.float32]
 
-
-class _TableEnv(gymnasium.Env[_Action, _Action]):
-    """Base class of the environments: random starts and goals, observations and images.
-
-    :class:`PushEnv` describes the parameters; ``steps`` is the maximum number of steps, and
-    ``more`` the number of additional observations.
-    """
-
-    # A page shows one push, and so does a frame.
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array", "html"], "render_fps": 10}  # type: ignore[misc]
-
-    def __init__(
-        self,
-        task: Task,
-        model: str,
-        steps: int,
-        spread: float,
-        goal_spread: float,
-        render_mode: str | None,
-        more: int = 0,
-    ) -> None:
-        if render_mode not in (None, *self.metadata["render_modes"]):
-            raise ValueError(
-                f'`render_mode` must be "rgb_array", "html" or None, found {render_mode!r}'
-            )
-        goal: Any = task.to_dict()["goal"]
-        if goal_spread > 0.0 and not (isinstance(goal, dict) and "position" in goal):
-            raise ValueError(
-                "`goal_spread` needs a task with one goal that has a `position`; set it to 0 for "
-                "other tasks"
-            )
-        #: Task of this episode, with the drawn goal.
-        self.task = task
-        self.model, self.steps = model, steps
-        self.spread, self.goal_spread = spread, goal_spread
-        self.render_mode = render_mode
-        self._given = task
-        self._picture = Picture(task) if render_mode == "rgb_array" else None
-        most = np.array(
-            [FAR, FAR, 1.0, 1.0] * len(task.objects) + [FAR] * (5 * len(task.goal_objects) + more),
-            dtype=np.float32,
-        )
-        self.observation_space = gymnasium.spaces.Box(-most, most, dtype=np.float32)
-        self._poses = task.start
-        self._first = task.score(self._poses)
-        self._made = 0
-        self._last: Plan | None = None
-
-    @property
-    def poses(self) -> npt.NDArray[np.float64]:
-        """Poses of the objects, ``[objects, 3]``: x and y in metres, heading in radians."""
-        return self._poses.copy()
-
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[_Action, dict[str, Any]]:
-        """Resets the objects to the start, shifted by up to ``spread``, and draws the goal."""
-        super().reset(seed=seed, options=options)
-        self.task = self._drawn()
-        self._poses = self.task.start
-        self._first = self.task.score(self._poses)
-        self._made = 0
-        self._last = None
-        return self._seen(), self._info(None)
-
-    def render(self) -> Any:
-        """Returns the image, ``[256, 256, 3]``, the report of the last push, or ``None``."""
-        if self.render_mode == "html":
-            return None if self._last is None else self._last.page()
-        if self._picture is None:
-            return None
-        return self._picture.of(
-            self._poses, self.task.goal_position, self.task.tolerance, self._held()
-        )
-
-    def _held(self) -> tuple[Tool, npt.NDArray[np.float64]] | None:
-        """Returns the tool on the table and its pose, or ``None``."""
-        return None
-
-    def _carried_out(self, planned: Callable[[], Plan]) -> tuple[float, bool, str | None]:
-        """Returns the reward, whether the goal is reached, and the reason if nothing moved."""
-        before = self.task.score(self._poses)
-        self._made += 1
-        refused, reached = None, False
-        try:
-            plan = planned()
-            if plan.violations:
-                refused = plan.violations[0]
-            else:
-                trajectory = predict(plan, self.model)
-                self._last = plan
-                self._poses, reached = trajectory.poses[-1], trajectory.reached
-        except ActionError as error:
-            refused = str(error)
-        gained = (before - self.task.score(self._poses)) / max(self._first, 1.0)
-        return gained + float(reached), reached, refused
-
-    def _drawn(self) -> Task:
-        """Draws a start and a goal without overlaps; joined objects are shifted together."""
-        if self.spread <= 0.0 and self.goal_spread <= 0.0:
-            return self._given
-        start = self._given.start
-        joined = bool(self._given.to_dict()["scene"].get("joints"))
-        for _ in range(TRIES):
-            poses = start.copy()
-            if self.spread > 0.0:
-                shift = self.np_random.uniform(-self.spread, self.spread, (len(start), 2))
-                poses[:, :2] += shift[:1] if joined else shift
-            mapping: Any = self._given.at(poses).to_dict()
-            if self.goal_spread > 0.0:
-                x, y = mapping["goal"]["position"]
-                aside = self.np_random.uniform(-self.goal_spread, self.goal_spread, 2)
-                mapping["goal"]["position"] = [float(x + aside[0]), float(y + aside[1])]
-            try:
-                # The rules of task files decide which placements are valid.
-                return Task.from_dict(mapping)
-            except FileError:
-                continue
-        return self._given
-
-    def _seen(self) -> _Action:
-        x, y, heading = self._poses.T
-        objects = np.stack([x, y, np.cos(heading), np.sin(heading)], axis=1)
-        names = self.task.objects
-        own = self._poses[[names.index(name) for name in self.task.goal_subjects(self._poses)], :2]
-        off = self.task.goal_offsets(self._poses)
-        goals = np.concatenate([own - off[:, :2], -off[:, :2]], axis=1)
-        return np.concatenate([objects.ravel(), -off[:, 2], goals.ravel()]).astype(np.float32)
-
-    def _info(self, refused: str | None) -> dict[str, Any]:
-        return {"score": self.task.score(self._poses), "refused": refused}
-
-
-class PushEnv(_TableEnv):
+class PushEnv(TableEnv):
     """Environment with one push per step, with the tools, rules and goal of a task.
 
     The tool is set down just before the object of the first unreached goal and pushes it. An action
@@ -184,6 +44,12 @@ class PushEnv(_TableEnv):
     - lateral offset of the object, in units of ``most_offset``;
     - length, with 0 for the task's length and 1 for 50 % more.
 
+    If the task does not allow this push, for example because it would leave the reach, the nearest
+    allowed one is executed: shorter, with another grip yaw, in another direction, without offset,
+    or with another tool. ``info["plan"]`` is the executed push. The episode is also terminated if
+    no further push is allowed, for example because the object is out of reach. If that is already
+    true before the push, nothing moves, and ``info["refused"]`` states the reason.
+
     An observation has, in this order,
 
     - x and y (metres), cosine and sine of the heading of every object;
@@ -191,8 +57,7 @@ class PushEnv(_TableEnv):
     - position of every goal, and offset from the object to it, x and y in metres.
 
     The reward is the gained share of the distance to the goal, plus 1 for reaching it, minus 0.02
-    per push. An infeasible push, or one that violates a rule of the task, moves nothing;
-    ``info["refused"]`` states the reason.
+    per push.
 
     Parameters
     ----------
@@ -215,6 +80,13 @@ class PushEnv(_TableEnv):
     ------
     ModelError or ValueError
         If ``model`` is unknown, or another argument is invalid.
+
+    Examples
+    --------
+    >>> env = pushplan.env.PushEnv(pushplan.Task.example("pull-back"))
+    >>> seen, info = env.reset(seed=0)
+    >>> seen, reward, reached, truncated, info = env.step(env.action_space.sample())
+    >>> print(info["plan"].pushes, reward)
     """
 
     def __init__(
@@ -250,12 +122,37 @@ class PushEnv(_TableEnv):
     ) -> npt.NDArray[np.float32]:
         """Returns the action of a push; angles in radians, lengths in metres.
 
-        By default it has the first grip yaw and the push length of the task. Raises ``ValueError``
-        for an unknown tool, offset or length.
+        Parameters
+        ----------
+        tool : str
+            Name of one of ``tools``.
+        direction : float
+            Direction of travel, radians from world +x.
+        grip_yaw : float, optional
+            Rotation of the end effector, radians; by default the first grip yaw of the task. The
+            action has the nearest grip yaw of the task.
+        offset : float, default 0
+            Lateral offset of the object, metres.
+        length : float, optional
+            Travel, metres; by default the push length of the task.
+
+        Returns
+        -------
+        ndarray of float32, ``[5]``
+            Action for :meth:`step`.
+
+        Raises
+        ------
+        UnknownToolError or ValueError
+            If the environment has no such tool, or ``offset`` or ``length`` is out of range.
+
+        Examples
+        --------
+        >>> action = env.action("l-hook", math.pi, length=0.15)
         """
         names = [one.name for one in self.tools]
         if tool not in names:
-            raise ValueError(f"no tool is called `{tool}`; there are {', '.join(names)}")
+            raise UnknownToolError(f"no tool is called `{tool}`; use one of {', '.join(names)}")
         yaws = self.task.grip_yaws
         nearest = 0 if grip_yaw is None else int(np.argmin(np.abs(np.array(yaws) - grip_yaw)))
         usual = self.task.push_length
@@ -270,11 +167,33 @@ class PushEnv(_TableEnv):
             )
         return np.array(numbers, dtype=np.float32)
 
-    def step(self, action: _Action) -> tuple[_Action, float, bool, bool, dict[str, Any]]:
-        """Executes one push."""
+    def step(self, action: Action) -> tuple[Action, float, bool, bool, dict[str, Any]]:
+        """Executes one push.
+
+        Parameters
+        ----------
+        action : array_like, ``[5]``
+            Numbers from -1 to 1; others are clipped.
+
+        Returns
+        -------
+        tuple of ndarray, float, bool, bool and dict
+            Observation, reward, whether the goal is reached or no further push is allowed, whether
+            the pushes are used up, and ``info`` with ``score``, ``refused`` and ``plan``.
+        """
         gained, reached, refused = self._carried_out(lambda: self._plan(action))
-        truncated = self._made >= self.steps and not reached
-        return self._seen(), gained - COST, reached, truncated, self._info(refused)
+        terminated = reached or refused is not None or self._stuck()
+        truncated = self._made >= self.steps and not terminated
+        return self._seen(), gained - COST, terminated, truncated, self._info(refused)
+
+    def _stuck(self) -> bool:
+        """Returns whether no push of the target is allowed."""
+        request = Request(0, 0, 0.0, 0.0, self.task.push_length)
+        try:
+            nearest(self.task.at(self._poses), self.tools, self._target(), request)
+        except ActionError:
+            return True
+        return False
 
     def _target(self) -> str:
         """Returns the object of the first unreached goal."""
@@ -283,17 +202,19 @@ class PushEnv(_TableEnv):
         )
         return next((name for name, reached in goals if not reached), self.task.goal_object)
 
-    def _plan(self, action: _Action) -> Plan:
+    def _plan(self, action: Action) -> Plan:
         tool, grip, half, offset, longer = (float(number) for number in np.clip(action, -1.0, 1.0))
-        yaws = self.task.grip_yaws
-        length = self.task.push_length * (1.0 + 0.5 * longer)
-        push = Push.before(self._target(), math.pi * half, offset * self.most_offset, length)
-        yaw = yaws[_index(grip, len(yaws))]
-        chosen = self.tools[_index(tool, len(self.tools))]
-        return Plan.of(self.task.at(self._poses), chosen, [push], grip_yaw=yaw)
+        request = Request(
+            _index(tool, len(self.tools)),
+            _index(grip, len(self.task.grip_yaws)),
+            math.pi * half,
+            offset * self.most_offset,
+            self.task.push_length * (1.0 + 0.5 * longer),
+        )
+        return nearest(self.task.at(self._poses), self.tools, self._target(), request)
 
 
-class SteerEnv(_TableEnv):
+class SteerEnv(TableEnv):
     """Environment with a short straight motion of the tool per step; the tool stays on the table.
 
     An action has two numbers from -1 to 1: the motion of the end effector along x and y in units of
@@ -321,6 +242,17 @@ class SteerEnv(_TableEnv):
         Maximum number of steps.
     model, spread, goal_spread, render_mode
         See :class:`PushEnv`.
+
+    Raises
+    ------
+    ModelError, UnknownToolError or ValueError
+        If ``model`` or ``tool`` is unknown, or another argument is invalid.
+
+    Examples
+    --------
+    >>> env = pushplan.env.SteerEnv(pushplan.Task.example("pull-back"), tool="l-hook")
+    >>> seen, info = env.reset(seed=0)
+    >>> seen, reward, reached, truncated, info = env.step([0.5, 0.0])
     """
 
     def __init__(
@@ -352,13 +284,36 @@ class SteerEnv(_TableEnv):
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[_Action, dict[str, Any]]:
-        """Resets the objects and the tool to the start, and draws the goal."""
+    ) -> tuple[Action, dict[str, Any]]:
+        """Resets the objects and the tool to the start, and draws the goal.
+
+        Parameters
+        ----------
+        seed, options
+            See :meth:`PushEnv.reset`.
+
+        Returns
+        -------
+        tuple of ndarray and dict
+            Observation, and ``info`` with the keys of :meth:`step`.
+        """
         self._hand = self._begin
         return super().reset(seed=seed, options=options)
 
-    def step(self, action: _Action) -> tuple[_Action, float, bool, bool, dict[str, Any]]:
-        """Moves the tool by one action."""
+    def step(self, action: Action) -> tuple[Action, float, bool, bool, dict[str, Any]]:
+        """Moves the tool by one action.
+
+        Parameters
+        ----------
+        action : array_like, ``[2]``
+            Motion along x and y in units of ``stride``, from -1 to 1; others are clipped.
+
+        Returns
+        -------
+        tuple of ndarray, float, bool, bool and dict
+            Observation, reward, whether the goal is reached, whether the steps are used up, and
+            ``info`` with ``score``, ``refused`` and ``plan``.
+        """
         way = self.stride * np.clip(np.asarray(action, float), -1.0, 1.0)
         length = float(np.hypot(*way))
         gained, reached, refused = 0.0, False, None
@@ -372,6 +327,7 @@ class SteerEnv(_TableEnv):
                 self._hand = self._hand + way
         else:
             self._made += 1
+            self._executed = None
         truncated = self._made >= self.steps and not reached
         return self._seen(), gained - COST * length, reached, truncated, self._info(refused)
 
@@ -382,7 +338,7 @@ class SteerEnv(_TableEnv):
         at = self._hand - np.array([c * x - s * y, s * x + c * y])
         return self.tool, np.array([*at, heading])
 
-    def _seen(self) -> _Action:
+    def _seen(self) -> Action:
         return np.concatenate([super()._seen(), self._hand]).astype(np.float32)
 
 

@@ -16,6 +16,7 @@ __all__ = [
     "PushplanError",
     "RefusedError",
     "TaskError",
+    "UnknownToolError",
 ]
 
 
@@ -78,6 +79,14 @@ class TaskError(PushplanError, ValueError):
 
 class ActionError(PushplanError, ValueError):
     """Infeasible pushes, such as a push in a direction in which the tool cannot push."""
+
+
+class UnknownToolError(ActionError, KeyError):
+    """Unknown name of a tool; a `KeyError`, because a library maps names to tools."""
+
+    def __str__(self) -> str:
+        # A KeyError shows its text in quotes.
+        return str(self.args[0])
 
 
 class RefusedError(PushplanError):

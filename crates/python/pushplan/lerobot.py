@@ -36,7 +36,7 @@ from typing import Any, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._native import Run, Task, Trajectory
+from ._native import Plan, Run, Task, Trajectory
 
 __all__ = ["save"]
 
@@ -76,8 +76,14 @@ def save(
         If the folder exists.
     ImportError
         If ``pyarrow`` is missing.
+    TypeError
+        If an episode is neither a run nor a pair of a task and a trajectory.
     ValueError
         If there is no episode, the objects differ, or ``fps`` is out of range.
+
+    Examples
+    --------
+    >>> lerobot.save("demonstrations", [(task, pushplan.predict(plan, "3d"))])
     """
     parquet, arrow = _pyarrow()
     folder = Path(folder)
@@ -85,9 +91,9 @@ def save(
         raise FileExistsError(f"{folder} exists already; choose a new folder")
     if not (isinstance(fps, int) and 1 <= fps <= 1000):
         raise ValueError(f"`fps` must be a whole number from 1 to 1000, found {fps!r}")
-    taken = [
-        _of_run(one, fps) if isinstance(one, Run) else _of_trajectory(*one, fps) for one in episodes
-    ]
+    if isinstance(episodes, Run):
+        raise TypeError("`episodes` must be a list, found one Run; pass it as [run]")
+    taken = [_taken(number, one, fps) for number, one in enumerate(episodes)]
     if not taken:
         raise ValueError("`episodes` is empty; a data set needs one episode or more")
     names = taken[0].names
@@ -193,6 +199,24 @@ class _Episode:
     tool: _Floats
     objects: _Floats
     reached: bool
+
+
+def _taken(number: int, episode: Any, fps: int) -> _Episode:
+    if isinstance(episode, Run):
+        return _of_run(episode, fps)
+    pair = episode if isinstance(episode, (tuple, list)) else ()
+    if len(pair) == 2 and isinstance(pair[0], Task) and isinstance(pair[1], Trajectory):
+        return _of_trajectory(pair[0], pair[1], fps)
+    remedy = ""
+    if isinstance(episode, Plan):
+        remedy = '; use (plan.task, pushplan.predict(plan, "3d"))'
+    elif isinstance(episode, Trajectory):
+        remedy = "; use (task, trajectory)"
+    kinds = f"({', '.join(type(part).__name__ for part in pair)})" if pair else ""
+    raise TypeError(
+        f"episode {number} must be a Run or a pair (Task, Trajectory), found "
+        f"{kinds or type(episode).__name__}{remedy}"
+    )
 
 
 def _of_trajectory(task: Task, trajectory: Trajectory, fps: int) -> _Episode:

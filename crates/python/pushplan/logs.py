@@ -95,6 +95,13 @@ def read_csv(
         If the log is invalid; the message states file and line.
     FileError
         If the scene or the pusher is invalid.
+
+    Examples
+    --------
+    >>> recording = logs.read_csv(
+    ...     "vicon.csv", scene={"objects": [box]}, pusher=tip, time="t", length="mm",
+    ...     poses={"pusher": ("tip_x", "tip_y"), "box": ("x", "y", "yaw")},
+    ... )
     """
     return Recording.from_dict(
         _mapping(path, scene, pusher, time, poses, (length, angle, clock), (start, end))
@@ -143,6 +150,10 @@ def read_mcap(
         If the log or an argument is invalid.
     FileError
         If the scene or the pusher is invalid.
+
+    Examples
+    --------
+    >>> recording = logs.read_mcap("best.mcap")
     """
     path = Path(path)
     if topics is None:
@@ -183,7 +194,29 @@ def read_mcap(
 
 
 def write_json(path: str | Path, csv_path: str | Path, **stated: Any) -> None:
-    """Writes the recording of a CSV file as JSON for the command; arguments as in `read_csv`."""
+    """Writes the recording of a CSV file as JSON for the command.
+
+    Parameters
+    ----------
+    path : str or Path
+        File to write.
+    csv_path : str or Path
+        CSV file.
+    **stated
+        Other arguments of `read_csv`.
+
+    Raises
+    ------
+    ValueError or FileError
+        If `read_csv` raises it.
+
+    Examples
+    --------
+    >>> logs.write_json(
+    ...     "pushes.json", "vicon.csv", scene={"objects": [box]}, pusher=tip, time="t",
+    ...     poses={"pusher": ("tip_x", "tip_y"), "box": ("x", "y", "yaw")}, length="mm",
+    ... )
+    """
     units = (stated.pop("length"), stated.pop("angle", "deg"), stated.pop("clock", "s"))
     cut = (stated.pop("start", None), stated.pop("end", None))
     mapping = _mapping(csv_path, units=units, cut=cut, **stated)

@@ -17,20 +17,18 @@ of the camera's pose. Lengths are metres, angles radians, and the table is the p
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from typing import Any, Iterable, Mapping, Optional, Sequence
+from dataclasses import dataclass
+from typing import Any, Iterable, Mapping, Optional
 
 import numpy as np
 import numpy.typing as npt
 
+from ._camera import PIXELS, Camera, detect
 from ._native import Task
 from ._tags import Floats, about_z, coefficients, opencv, square
+from ._tags import check_angle, check_edge, check_place
 
 __all__ = ["Camera", "Seen", "Tag", "detect", "look"]
-
-#: Default standard deviation of a detected corner, pixels, measured with tags of 40 to 90 pixels
-#: that MuJoCo rendered.
-PIXELS = 0.15
 
 #: Maximum error of the corners of a fit, in standard deviations, for a valid observation.
 GROSS = 8.0
@@ -54,6 +52,15 @@ class Tag:
         Rotation about z in the object's frame, radians.
     turn : array_like, ``[3, 3]``, optional
         Rotation matrix in the object's frame, for tags that do not face up; it replaces ``yaw``.
+
+    Raises
+    ------
+    ValueError
+        If a length is out of range, for example in millimetres, or ``yaw`` is in degrees.
+
+    Examples
+    --------
+    >>> tag = Tag(7, "can", 0.04)
     """
 
     id: int
@@ -63,133 +70,28 @@ class Tag:
     yaw: float = 0.0
     turn: Optional[npt.ArrayLike] = None
 
+    def __post_init__(self) -> None:
+        check_edge("size", self.size)
+        check_angle("yaw", self.yaw)
+        if self.position is not None:
+            check_place("position", self.position, 3)
+
     def corners(self, height: float) -> Floats:
-        """Returns the corners in the object's frame, in detectors' order, metres: ``[4, 3]``."""
-        turn = about_z(self.yaw) if self.turn is None else np.asarray(self.turn, float)
-        middle = np.array((0.0, 0.0, height) if self.position is None else self.position)
-        return middle + square(self.size) @ turn.T
-
-
-@dataclass(frozen=True)
-class Camera:
-    """Calibrated camera with its pose.
-
-    Parameters
-    ----------
-    matrix : array_like, ``[3, 3]``
-        Camera matrix, pixels.
-    distortion : array_like, optional
-        Distortion coefficients in OpenCV's order; by default none.
-    turn : ndarray, ``[3, 3]``
-        Rotation matrix from the table's frame to the camera's (x right, y down, z ahead).
-    shift : ndarray, ``[3]``
-        Translation from the table's frame to the camera's, metres.
-    covariance : ndarray, ``[6, 6]``
-        Covariance of small rotations (radians) and translations (metres) in the camera's frame.
-    """
-
-    matrix: npt.ArrayLike
-    distortion: npt.ArrayLike = ()
-    turn: Floats = field(default_factory=lambda: np.eye(3))
-    shift: Floats = field(default_factory=lambda: np.zeros(3))
-    covariance: Floats = field(default_factory=lambda: np.zeros((6, 6)))
-
-    def at(self, position: Sequence[float], turn: npt.ArrayLike) -> Camera:
-        """Returns the camera at a position in the table's frame, metres.
-
-        The columns of ``turn``, ``[3, 3]``, are the camera's axes in the table's frame.
-        """
-        turn = np.asarray(turn, float).T
-        return replace(
-            self, turn=turn, shift=-turn @ np.asarray(position, float), covariance=np.zeros((6, 6))
-        )
-
-    def placed(
-        self,
-        image: npt.NDArray[np.uint8],
-        tags: Mapping[int, Sequence[float]],
-        size: float,
-        *,
-        family: str = "apriltag_36h11",
-        pixels: float = PIXELS,
-    ) -> Camera:
-        """Returns the camera with its pose from an image of tags on the table.
+        """Returns the corners in the object's frame, in detectors' order.
 
         Parameters
         ----------
-        image : ndarray of uint8
-            Grey or colour image.
-        tags : mapping of int to sequence of float
-            Ids and centres of tags that lie flat on the table, x and y in metres, and optionally
-            their rotation in radians. Several tags far apart give an accurate pose.
-        size : float
-            Edge of the black squares, metres.
-        family, pixels
-            Family of the tags and minimum standard deviation of a corner, see `look`.
+        height : float
+            Height of the object, metres, at which a tag without ``position`` lies.
 
-        Raises
-        ------
-        ValueError
-            If the image shows none of the tags.
+        Returns
+        -------
+        ndarray, ``[4, 3]``
+            Corners, metres.
         """
-        cv2 = opencv()
-        found = detect(image, family)
-        known = [k for k in tags if k in found]
-        if not known:
-            raise ValueError(
-                f"the image shows none of the tags {sorted(tags)}, but {sorted(found)}; check ids "
-                "and `family`"
-            )
-        middles = {k: (*tuple(tags[k]), 0.0)[:3] for k in known}
-        points = np.concatenate(
-            [
-                np.array([x, y, 0.0]) + square(size) @ about_z(yaw).T
-                for x, y, yaw in middles.values()
-            ]
-        )
-        corners = np.concatenate([found[k] for k in known])
-        matrix, distortion = np.asarray(self.matrix, float), coefficients(self.distortion)
-        # Coplanar points have two solutions; the one that fits is refined.
-        options = cv2.solvePnPGeneric(points, corners, matrix, distortion, flags=cv2.SOLVEPNP_IPPE)
-        best = int(np.argmin(np.ravel(options[3])))
-        turn, shift = cv2.solvePnPRefineLM(
-            points, corners, matrix, distortion, options[1][best], options[2][best]
-        )
-        placed = replace(self, turn=cv2.Rodrigues(turn)[0], shift=np.ravel(shift))
-        slopes = placed.slopes(points)[1]
-        off = np.sqrt(np.mean((corners - placed.project(points)) ** 2))
-        spread = max(pixels, float(off))
-        covariance = np.asarray(spread**2 * np.linalg.inv(slopes.T @ slopes), dtype=np.float64)
-        return replace(placed, covariance=covariance)
-
-    def project(self, points: Floats) -> Floats:
-        """Projects points of the table's frame, ``[points, 3]``, to pixels, ``[points, 2]``."""
-        cv2 = opencv()
-        seen, _ = cv2.projectPoints(
-            points @ self.turn.T + self.shift, np.zeros(3), np.zeros(3),
-            np.asarray(self.matrix, float), coefficients(self.distortion),
-        )
-        return np.asarray(seen, float).reshape(-1, 2)
-
-    def slopes(self, points: Floats) -> tuple[Floats, Floats]:
-        """Returns the derivatives of the projection by the points, ``[points, 2, 3]``, and by a
-        rotation and a translation of the camera in its frame, ``[2 points, 6]``."""
-        step = 1e-6
-        by_point = np.empty((len(points), 2, 3))
-        for k in range(3):
-            shift = np.zeros(3)
-            shift[k] = step
-            ahead, behind = self.project(points + shift), self.project(points - shift)
-            by_point[:, :, k] = (ahead - behind) / (2 * step)
-        by_camera = np.empty((len(points), 2, 6))
-        inside = points @ self.turn.T + self.shift
-        for k in range(6):
-            axis = np.zeros(3)
-            axis[k % 3] = 1.0
-            moved = np.cross(axis, inside) if k < 3 else np.broadcast_to(axis, inside.shape)
-            # Relative to the table, the points moved in the opposite direction.
-            by_camera[:, :, k] = np.einsum("nij,nj->ni", by_point, moved @ self.turn)
-        return by_point, by_camera.reshape(-1, 6)
+        turn = about_z(self.yaw) if self.turn is None else np.asarray(self.turn, float)
+        middle = np.array((0.0, 0.0, height) if self.position is None else self.position)
+        return middle + square(self.size) @ turn.T
 
 
 @dataclass(frozen=True)
@@ -213,47 +115,6 @@ class Seen:
             raise ValueError("no object was observed; see `missing`")
         shift = max(np.sqrt(np.linalg.eigvalsh(self.covariance[k][:2, :2])[-1]) for k in seen)
         return float(shift), float(max(np.sqrt(self.covariance[k][2, 2]) for k in seen))
-
-
-def detect(image: npt.NDArray[np.uint8], family: str = "apriltag_36h11") -> dict[int, Floats]:
-    """Detects the tags in an image.
-
-    Parameters
-    ----------
-    image : ndarray of uint8
-        Grey or colour image.
-    family : str, default "apriltag_36h11"
-        Family of the tags, an OpenCV dictionary such as "apriltag_36h11" or "4x4_50".
-
-    Returns
-    -------
-    dict of int to ndarray, ``[4, 2]``
-        Corners of every tag by its id, pixels. A tag that appears twice is left out.
-    """
-    aruco = opencv().aruco
-    name = "DICT_" + (
-        family.upper().replace("H", "h") if family.startswith("apriltag") else family.upper()
-    )
-    if not hasattr(aruco, name):
-        known = sorted(word[5:].lower() for word in dir(aruco) if word.startswith("DICT_"))
-        raise ValueError(f"no family of tags is called {family!r}; use one of {', '.join(known)}")
-    settings = aruco.DetectorParameters()
-    settings.cornerRefinementMethod = aruco.CORNER_REFINE_SUBPIX
-    # With these windows, corners of rendered tags have a mean error of 0.14 pixels; with OpenCV's
-    # own windows, 0.38.
-    settings.cornerRefinementWinSize = 7
-    settings.relativeCornerRefinmentWinSize = 0.5
-    detector = aruco.ArucoDetector(aruco.getPredefinedDictionary(getattr(aruco, name)), settings)
-    corners, ids, _ = detector.detectMarkers(image)
-    if ids is None:
-        return {}
-    found: dict[int, Floats] = {}
-    for tag, four in zip(np.ravel(ids), corners):
-        # A tag that appears twice is ambiguous, because a picture of it may be in the scene.
-        found[int(tag)] = (
-            np.full((4, 2), np.nan) if int(tag) in found else np.asarray(four, float).reshape(4, 2)
-        )
-    return {tag: four for tag, four in found.items() if np.isfinite(four).all()}
 
 
 def look(
@@ -290,12 +151,14 @@ def look(
     Raises
     ------
     ValueError
-        If a tag names an object that the task does not have, or OpenCV has no such family.
+        If the camera has no pose, a tag names an object that the task does not have, or OpenCV
+        has no such family.
 
     Examples
     --------
     >>> seen = look(task, image, camera, [Tag(7, "can", 0.04)])
     """
+    camera.check_pose()
     if isinstance(image, Mapping):
         found = {int(k): np.asarray(v, float).reshape(4, 2) for k, v in image.items()}
     else:

@@ -6,8 +6,10 @@ use numpy::{
     PyArrayMethods,
 };
 use pushplan::{Pose, State, Trajectory};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+
+use crate::arguments::found;
 
 /// Array of numbers, or nested lists of numbers.
 pub type Numbers<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
@@ -47,12 +49,29 @@ pub fn state(poses: ArrayViewD<'_, f64>) -> State {
     State::at_rest(poses.axis_iter(Axis(0)).map(pose).collect())
 }
 
+/// Converts an argument to an array of finite numbers; `shape` is the expected one.
+pub fn numbers_of<'py>(
+    what: &str,
+    given: &Bound<'py, PyAny>,
+    shape: &str,
+) -> PyResult<Numbers<'py>> {
+    let numbers: Numbers<'py> = given.extract().map_err(|_| {
+        PyTypeError::new_err(format!(
+            "`{what}` must be an array of numbers of the shape {shape}, found {}",
+            found(given)
+        ))
+    })?;
+    finite(what, &numbers.as_array())?;
+    Ok(numbers)
+}
+
 /// Refuses numbers that are not finite.
 pub fn finite(what: &str, values: &ArrayViewD<'_, f64>) -> PyResult<()> {
     match values.iter().all(|value| value.is_finite()) {
         true => Ok(()),
         false => {
-            Err(PyValueError::new_err(format!("`{what}` contains numbers that are not finite")))
+            let message = format!("`{what}` contains numbers that are not finite; replace them");
+            Err(PyValueError::new_err(message))
         }
     }
 }

@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
 use crate::mapping::Text;
-use crate::{arguments, arrays, errors, json, work};
+use crate::{arguments, arrays, errors, json, wanted, work};
 
 /// Recording of one scene: poses of pusher and objects, frame by frame.
 #[pyclass(name = "Recording", module = "pushplan", frozen)]
@@ -22,6 +22,13 @@ pub struct PyRecording(pub Recording);
 
 #[pymethods]
 impl PyRecording {
+    #[new]
+    #[pyo3(signature = (*_arguments, **_named))]
+    fn new(_arguments: &Bound<'_, PyAny>, _named: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let remedy = "read a file with `Recording.load(path)`, or a log with `pushplan.logs`";
+        Err(wanted::no_constructor("Recording", remedy))
+    }
+
     /// Reads a recording file (YAML, or JSON if the name ends in `.json`).
     ///
     /// Parameters
@@ -29,10 +36,19 @@ impl PyRecording {
     /// path : str or path-like
     ///     Recording file.
     ///
+    /// Returns
+    /// -------
+    /// Recording
+    ///     Recording of the file.
+    ///
     /// Raises
     /// ------
     /// FileError
     ///     If the file is unreadable or invalid; it lists all faults.
+    ///
+    /// Examples
+    /// --------
+    /// >>> recording = pushplan.Recording.load("pushes.json")
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         Recording::load(path).map(Self).map_err(|faults| errors::files(py, &faults, None))
@@ -46,6 +62,11 @@ impl PyRecording {
     ///     Content of the file (YAML, or JSON if `name` ends in `.json`).
     /// name : str, default "recording"
     ///     File name in error messages.
+    ///
+    /// Returns
+    /// -------
+    /// Recording
+    ///     Recording of the text.
     ///
     /// Raises
     /// ------
@@ -63,6 +84,11 @@ impl PyRecording {
     /// ----------
     /// mapping : dict
     ///     Mapping with the keys of `recording_schema`. NumPy arrays count as lists.
+    ///
+    /// Returns
+    /// -------
+    /// Recording
+    ///     Recording of the mapping.
     ///
     /// Raises
     /// ------
@@ -226,8 +252,13 @@ pub fn shipped_regulator() -> PyResult<BeliefRegulator> {
 /// ------
 /// ModelError
 ///     If `model` is not the name of an effect model.
-/// ValueError
-///     If another argument has an invalid value.
+/// TypeError or ValueError
+///     If another argument has an invalid type or value.
+///
+/// Examples
+/// --------
+/// >>> belief = pushplan.infer(pushplan.Recording.load("pushes.json"))
+/// >>> print(belief.pairs, belief.probabilities)
 #[pyfunction]
 #[pyo3(signature = (
     recording, *, model = "prior", noise = 1e-3, heading_noise = 0.01, mass_ranges = None,
@@ -235,12 +266,12 @@ pub fn shipped_regulator() -> PyResult<BeliefRegulator> {
 ))]
 pub fn infer(
     py: Python<'_>,
-    recording: &PyRecording,
+    #[pyo3(from_py_with = wanted::recording)] recording: Py<PyRecording>,
     model: &str,
     noise: f64,
     heading_noise: f64,
     mass_ranges: Option<Vec<(f64, f64)>>,
-    threads: usize,
+    #[pyo3(from_py_with = arguments::threads)] threads: usize,
 ) -> PyResult<PyBelief> {
     if ![noise, heading_noise].iter().all(|value| (0.0..=0.5).contains(value)) {
         let message = format!(
@@ -260,9 +291,9 @@ pub fn infer(
     let ranges: Vec<Span> = mass_ranges.iter().map(|(low, high)| Span::new(*low, *high)).collect();
     let model = arguments::model(py, model, Default::default())?;
     let regulator = shipped_regulator()?;
-    let recording = &recording.0;
+    let recording = &recording.get().0;
     let settings = BeliefSettings::new(Noise { position: noise, heading: heading_noise });
-    let belief = work::run(py, arguments::threads(threads)?, |cancel| {
+    let belief = work::run(py, threads, |cancel| {
         let (tool, lift) = (recording.tool.clone(), recording.lift);
         let mut belief = Belief::new(&recording.scene, tool, lift, settings)
             .moving(&recording.velocities)

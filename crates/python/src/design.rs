@@ -1,19 +1,20 @@
 //! Proposed tools.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use pushplan::{Solution, Task};
 use pushplan_design::{Design, DesignSettings};
 use pushplan_report::{TaskSource, design_document};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
+use crate::progress::Observer;
 use crate::solution::PySolution;
 use crate::solve::Asked;
 use crate::task::PyTask;
 use crate::tool::{PyTool, PyToolLibrary, given};
-use crate::{arguments, errors, json, work};
+use crate::{arguments, errors, json, wanted, work};
 
 /// Result of `design`: the proposed tool, and the solution with the existing tools.
 #[pyclass(name = "Design", module = "pushplan", frozen)]
@@ -92,6 +93,8 @@ impl PyDesign {
 ///     Seconds after which the best proposal so far is returned.
 /// effort, seed, threads
 ///     Options of the planner, see `solve`.
+/// progress : bool or callable, optional
+///     Receiver of the stage and the number of screened tools, see `solve`.
 ///
 /// Returns
 /// -------
@@ -100,44 +103,39 @@ impl PyDesign {
 ///
 /// Raises
 /// ------
-/// FileError, TaskError or ValueError
+/// FileError, TaskError, TypeError or ValueError
 ///     If the task or an argument is invalid.
 ///
 /// Examples
 /// --------
 /// >>> design = pushplan.design(task, candidates=200)
-/// >>> tools = pushplan.ToolLibrary.shipped().with_tool(design.tool)
+/// >>> if design.tool is not None:
+/// ...     tools = pushplan.ToolLibrary.shipped().with_tool(design.tool)
 #[pyfunction]
 #[pyo3(signature = (task, tools = None, *, parts = 3, candidates = 1000, effort = "standard",
-                    seed = 0, time_limit = None, threads = 0))]
+                    seed = 0, time_limit = None, threads = 0, progress = None))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn design(
     py: Python<'_>,
-    task: &PyTask,
-    tools: Option<Py<PyToolLibrary>>,
-    parts: usize,
-    candidates: usize,
+    #[pyo3(from_py_with = wanted::task)] task: Py<PyTask>,
+    #[pyo3(from_py_with = wanted::tools)] tools: Option<Py<PyToolLibrary>>,
+    #[pyo3(from_py_with = arguments::parts)] parts: usize,
+    #[pyo3(from_py_with = arguments::candidates)] candidates: usize,
     effort: &str,
-    seed: u64,
-    time_limit: Option<f64>,
-    threads: usize,
+    #[pyo3(from_py_with = arguments::seed)] seed: u64,
+    #[pyo3(from_py_with = arguments::time_limit)] time_limit: Option<Duration>,
+    #[pyo3(from_py_with = arguments::threads)] threads: usize,
+    progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PyDesign> {
-    let most = DesignSettings::MOST_PARTS;
-    if !(1..=most).contains(&parts) || !(1..=1_000_000).contains(&candidates) {
-        let message = format!(
-            "`parts` must be 1 to {most} and `candidates` 1 to 1000000, found {parts} and \
-             {candidates}"
-        );
-        return Err(PyValueError::new_err(message));
-    }
     let (model, replays, fit) = (None, None, None);
     let asked = Asked { effort, model, out_of_range: "warn", seed, replays, time_limit, fit };
     let planner = asked.planner(py)?;
     let library = given(py, tools.as_ref())?;
     let settings = DesignSettings { parts, ..DesignSettings::looking_at(candidates) };
-    let (stated, threads) = (Arc::clone(&task.task), arguments::threads(threads)?);
-    let designed = work::run(py, threads, |cancel| {
-        pushplan_design::design(&planner, &stated, &library, &settings, cancel)
+    let (task, observer) = (task.get(), Observer::of(py, progress)?);
+    let stated = Arc::clone(&task.task);
+    let designed = work::follow(py, threads, &observer, |watch| {
+        pushplan_design::design(&planner, &stated, &library, &settings, watch)
     })?;
     let design = designed.map_err(|error| errors::solve(py, &error))?;
     Ok(PyDesign { task: stated, source: task.source(), design })

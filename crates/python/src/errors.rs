@@ -70,3 +70,8 @@ pub fn spec(py: Python<'_>, error: &pushplan::models::SpecError) -> PyErr {
 pub fn action(py: Python<'_>, message: &str) -> PyErr {
     raise(py, "ActionError", (message,))
 }
+
+/// Converts the unknown name of a tool.
+pub fn unknown_tool(py: Python<'_>, message: &str) -> PyErr {
+    raise(py, "UnknownToolError", (message,))
+}

@@ -11,11 +11,11 @@ use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 
 use crate::plan::PyPlan;
-use crate::solve::predicted;
+use crate::predict::predicted;
 use crate::task::PyTask;
 use crate::tool::PyTool;
 use crate::trajectory::PyTrajectory;
-use crate::{arguments, errors, work};
+use crate::{arguments, errors, wanted, work};
 
 // Defaults are literals, because Python shows them; the friction must equal `Wanted::FRICTION`.
 const _: () = assert!(Wanted::FRICTION == 0.5);
@@ -29,6 +29,10 @@ const _: () = assert!(Wanted::FRICTION == 0.5);
 /// ----------
 /// folder : str or path-like
 ///     Folder, such as the one that contains the packages named by `package://`.
+///
+/// Examples
+/// --------
+/// >>> pushplan.allow_files_in("ros/share")
 #[pyfunction]
 pub fn allow_files_in(folder: PathBuf) {
     pushplan_arm::allow_files_in(folder);
@@ -65,6 +69,10 @@ pub fn allow_files_in(folder: PathBuf) {
 ///     If the file is unreadable, or pushplan cannot express a part of it.
 /// ValueError
 ///     If `unit` is not a number above 0.
+///
+/// Examples
+/// --------
+/// >>> tool = pushplan.import_tool("hook.xml", friction=0.4)
 #[pyfunction]
 #[pyo3(signature = (path, *, body = None, name = None, friction = 0.5, root = None, unit = 1.0))]
 pub fn import_tool(
@@ -120,6 +128,10 @@ pub fn import_tool(
 ///     If the file is unreadable, or pushplan cannot express a part of it.
 /// ValueError
 ///     If `density` or `unit` is not a number above 0.
+///
+/// Examples
+/// --------
+/// >>> task = pushplan.import_task("scene.xml", shift=(0.1, 0.0))
 #[pyfunction]
 #[pyo3(signature = (path, *, bodies = None, name = None, friction = 0.5, shift = (0.0, 0.0),
                     free = None, density = None, root = None, unit = 1.0))]
@@ -181,15 +193,24 @@ fn imported<T>(
 /// plan : Plan
 ///     Plan to export.
 /// path : str or path-like
-///     File to write. It is replaced as a whole, so that no partial file remains after an error.
+///     File to write, in an existing folder. It is replaced as a whole, so that no partial file
+///     remains after an error.
 ///
 /// Raises
 /// ------
 /// FileError
 ///     If the file cannot be written.
+///
+/// Examples
+/// --------
+/// >>> pushplan.export_mjcf(plan, "best.xml")
 #[pyfunction]
-pub fn export_mjcf(py: Python<'_>, plan: &PyPlan, path: PathBuf) -> PyResult<()> {
-    let text = plan.to_mjcf()?;
+pub fn export_mjcf(
+    py: Python<'_>,
+    #[pyo3(from_py_with = wanted::plan)] plan: Py<PyPlan>,
+    path: PathBuf,
+) -> PyResult<()> {
+    let text = plan.get().to_mjcf()?;
     write_atomic(path, text.as_bytes()).map_err(|faults| errors::files(py, &faults, None))
 }
 
@@ -203,7 +224,8 @@ pub fn export_mjcf(py: Python<'_>, plan: &PyPlan, path: PathBuf) -> PyResult<()>
 /// plan : Plan
 ///     Plan to export.
 /// path : str or path-like
-///     File to write. It is replaced as a whole, so that no partial file remains after an error.
+///     File to write, in an existing folder. It is replaced as a whole, so that no partial file
+///     remains after an error.
 /// trajectory : Trajectory, optional
 ///     Motion to write, from `predict` or a replay of a verdict; by default the prediction of
 ///     `model`.
@@ -218,23 +240,28 @@ pub fn export_mjcf(py: Python<'_>, plan: &PyPlan, path: PathBuf) -> PyResult<()>
 ///     If the file cannot be written.
 /// ModelError
 ///     If `model` is not the name of an effect model.
-/// ValueError
-///     If `trajectory` belongs to another task.
+/// TypeError or ValueError
+///     If an argument has an invalid type, or `trajectory` belongs to another task.
+///
+/// Examples
+/// --------
+/// >>> pushplan.export_mcap(plan, "best.mcap", trajectory=pushplan.predict(plan))
 #[pyfunction]
 #[pyo3(signature = (plan, path, *, trajectory = None, model = "3d", threads = 0))]
 pub fn export_mcap(
     py: Python<'_>,
-    plan: &PyPlan,
+    #[pyo3(from_py_with = wanted::plan)] plan: Py<PyPlan>,
     path: PathBuf,
-    trajectory: Option<Py<PyTrajectory>>,
+    #[pyo3(from_py_with = wanted::trajectory)] trajectory: Option<Py<PyTrajectory>>,
     model: &str,
-    threads: usize,
+    #[pyo3(from_py_with = arguments::threads)] threads: usize,
 ) -> PyResult<()> {
+    let plan = plan.get();
     let trajectory = match &trajectory {
         Some(known) => known.get().trajectory.clone(),
         None => {
             let model = arguments::model(py, model, arguments::out_of_range("warn")?)?;
-            work::run(py, arguments::threads(threads)?, |_| predicted(&model, &plan.file))?
+            work::run(py, threads, |_| predicted(&model, &plan.file))?
         }
     };
     let objects = plan.file.task.scene.objects.len();

@@ -3,13 +3,11 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use numpy::PyArray2;
 use pushplan::files::PlanFile;
 use pushplan::models::Engine;
-use pushplan::outcomes::{VerifySettings, rule_violations};
-use pushplan::planning::{ManualPush, manual_plan};
-use pushplan::{
-    Job, PushForm, RankedPlan, Situation, TableFit, Task, Trajectory, Verdict, Verifier, Warning,
-};
+use pushplan::planning::ManualPush;
+use pushplan::{Job, Push, PushForm, Trajectory, Verdict};
 use pushplan_export::mjcf;
 use pushplan_report::{Graph, Origin, PageView, TaskSource, verdict_page};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -22,7 +20,7 @@ use crate::task::PyTask;
 use crate::tool::{PyTool, PyToolLibrary, tool};
 use crate::trajectory::PyTrajectory;
 use crate::verdict::PyVerdict;
-use crate::{errors, json, page, work};
+use crate::{arguments, arrays, errors, json, page, wanted, work};
 
 /// Plan of pushes or lever-ups for a task, with its prediction and verdict.
 ///
@@ -32,13 +30,23 @@ use crate::{errors, json, page, work};
 pub struct PyPlan {
     pub file: PlanFile,
     /// Source of the task.
-    source: TaskSource,
-    trajectory: Option<Trajectory>,
-    violations: Vec<String>,
+    pub source: TaskSource,
+    /// Predicted motion.
+    pub trajectory: Option<Trajectory>,
+    /// Violated rules of the task.
+    pub violations: Vec<String>,
 }
 
 #[pymethods]
 impl PyPlan {
+    #[new]
+    #[pyo3(signature = (*_arguments, **_named))]
+    fn new(_arguments: &Bound<'_, PyAny>, _named: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let remedy = "take the best plan of `pushplan.solve(task)`, read a file with \
+                      `Plan.load(path)`, or build one with `Plan.of(task, tool, pushes)`";
+        Err(wanted::no_constructor("Plan", remedy))
+    }
+
     /// Reads a plan file (JSON).
     ///
     /// Parameters
@@ -46,10 +54,20 @@ impl PyPlan {
     /// path : str or path-like
     ///     Plan file, written by `Plan.save` or by the command `pushplan solve`.
     ///
+    /// Returns
+    /// -------
+    /// Plan
+    ///     Plan of the file, with its verdict.
+    ///
     /// Raises
     /// ------
     /// FileError
     ///     If the file is unreadable or invalid; it lists all faults.
+    ///
+    /// Examples
+    /// --------
+    /// >>> plan.save("best.plan.json")
+    /// >>> verdict = pushplan.verify(pushplan.Plan.load("best.plan.json"))
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let file = PlanFile::load(path).map_err(|faults| errors::files(py, &faults, None))?;
@@ -64,6 +82,11 @@ impl PyPlan {
     ///     Content of the file (JSON).
     /// name : str, default "plan"
     ///     File name in error messages.
+    ///
+    /// Returns
+    /// -------
+    /// Plan
+    ///     Plan of the text, with its verdict.
     ///
     /// Raises
     /// ------
@@ -88,8 +111,8 @@ impl PyPlan {
     /// pushes : sequence of Push
     ///     Pushes, in order. A push that violates a rule of the task is allowed; see `violations`.
     /// grip_yaw : float, optional
-    ///     Rotation of the end effector against world +x, radians; by default the first grip yaw of
-    ///     the task with which the pushes are feasible.
+    ///     Rotation of the end effector against world +x, radians, -4 pi to 4 pi; by default the
+    ///     first grip yaw of the task with which the pushes are feasible.
     /// tools : ToolLibrary, optional
     ///     Tools for a name in `tool`; by default the tools shipped with the package.
     ///
@@ -101,9 +124,10 @@ impl PyPlan {
     /// Raises
     /// ------
     /// ActionError
-    ///     If a push is infeasible, for example because the tool or the object is unknown.
+    ///     If a push is infeasible, for example because the object is unknown; `UnknownToolError`
+    ///     for an unknown name in `tool`.
     /// TypeError or ValueError
-    ///     If `tool` is not a tool, or `grip_yaw` is not finite.
+    ///     If another argument has an invalid type or value.
     ///
     /// Examples
     /// --------
@@ -113,35 +137,16 @@ impl PyPlan {
     #[pyo3(signature = (task, tool, pushes, *, grip_yaw = None, tools = None))]
     fn of(
         py: Python<'_>,
-        task: &PyTask,
+        #[pyo3(from_py_with = wanted::task)] task: Py<PyTask>,
         tool: &Bound<'_, PyAny>,
-        pushes: Vec<Py<PyPush>>,
-        grip_yaw: Option<f64>,
-        tools: Option<Py<PyToolLibrary>>,
+        #[pyo3(from_py_with = wanted::pushes)] pushes: Vec<Py<PyPush>>,
+        #[pyo3(from_py_with = arguments::grip_yaw)] grip_yaw: Option<f64>,
+        #[pyo3(from_py_with = wanted::tools)] tools: Option<Py<PyToolLibrary>>,
     ) -> PyResult<Self> {
-        let tool = self::tool(py, tool, tools.as_ref())?;
-        let yaws = match grip_yaw {
-            None => task.task.pushes.grip_yaws.clone(),
-            Some(yaw) if yaw.is_finite() => vec![yaw],
-            Some(_) => {
-                return Err(PyValueError::new_err("`grip_yaw` must be a finite angle in radians"));
-            }
-        };
+        let (task, tool) = (task.get(), self::tool(py, tool, tools.as_ref())?);
+        let yaws = grip_yaw.map_or_else(|| task.task.pushes.grip_yaws.clone(), |yaw| vec![yaw]);
         let pushes: Vec<ManualPush> = pushes.iter().map(|push| push.get().0.clone()).collect();
-        let situation = Situation::stated(&task.task.scene);
-        let asked =
-            work::run(py, 0, |_| manual_plan(&task.task, &situation, &tool, &yaws, &pushes))?;
-        let asked = asked.map_err(|error| errors::action(py, &error.to_string()))?;
-        let rules =
-            rule_violations(&task.task, &task.task.scene, std::slice::from_ref(&tool), &asked.plan);
-        let forms = rules.iter().filter(|rule| {
-            matches!(rule, Warning::ForbiddenPush { .. } | Warning::TooManyPushes { .. })
-        });
-        let margins =
-            asked.violations.iter().map(|(push, rule)| format!("push {}: {rule}", push + 1));
-        let violations: Vec<String> = margins.chain(forms.map(Warning::to_string)).collect();
-        let file = PlanFile::new(Task::clone(&task.task), vec![tool], asked.plan);
-        Ok(Self { file, source: task.source(), trajectory: None, violations })
+        Self::pushing(py, task, tool, &yaws, &pushes)
     }
 
     /// Task of the plan.
@@ -182,6 +187,16 @@ impl PyPlan {
     #[getter]
     fn pushes(&self) -> Vec<PyPush> {
         self.file.plan.pushes().iter().map(PyPush::from).collect()
+    }
+
+    /// Pushes for `rollout`, `[pushes, 5]`: x and y of the end effector at the start (metres),
+    /// direction (radians from world +x), length (metres) and speed (m/s).
+    #[getter]
+    fn push_array<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let pushes = self.file.plan.pushes();
+        let row =
+            |push: &Push| [push.start.x, push.start.y, push.direction, push.length, push.speed];
+        arrays::array(py, pushes.iter().flat_map(row).collect(), [pushes.len(), 5])
     }
 
     /// Rotation of the end effector against world +x, radians.
@@ -245,7 +260,11 @@ impl PyPlan {
     ///     tool, each with name, kind, pose, size and motion. Relations are contacts and joints
     ///     between nodes, which they name by index. `None` past the last frame, without a
     ///     prediction, and for plans with lever-ups or several tools.
-    fn graph<'py>(&self, py: Python<'py>, frame: usize) -> PyResult<Option<Bound<'py, PyAny>>> {
+    fn graph<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = arguments::frame)] frame: usize,
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let Some(trajectory) = &self.trajectory else { return Ok(None) };
         let PlanFile { task, plan, tools, .. } = &self.file;
         let flat = trajectory.frames.iter().all(|frame| frame.state.space.is_none());
@@ -276,6 +295,11 @@ impl PyPlan {
     /// Writes the plan file (JSON) for `Plan.load` and the command `pushplan verify`.
     ///
     /// The file is replaced as a whole, so that no partial file remains after an error.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or path-like
+    ///     File to write, in an existing folder.
     ///
     /// Raises
     /// ------
@@ -339,43 +363,5 @@ impl PyPlan {
             false => self.file.tools.iter().map(|tool| &*tool.name).collect::<Vec<_>>().join(", "),
         };
         format!("<Plan for {}: {steps} with {tools}>", self.file.task.name)
-    }
-}
-
-impl PyPlan {
-    /// Creates a plan from a ranked plan of a solution.
-    pub fn ranked(
-        (task, source): (&Task, &TaskSource),
-        fit: Option<&TableFit>,
-        ranked: &RankedPlan,
-    ) -> Self {
-        let file = PlanFile {
-            task: task.clone(),
-            tools: ranked.tools.clone(),
-            plan: ranked.plan.clone(),
-            model: Some(ranked.predicted.by.clone()),
-            fit: fit.cloned(),
-            predicted: Some(ranked.outcome.clone()),
-            verdict: ranked.verdict.clone(),
-            joints: ranked.joints.clone(),
-        };
-        let trajectory = Some(ranked.predicted.clone());
-        Self { file, source: source.clone(), trajectory, violations: Vec::new() }
-    }
-
-    fn read(file: PlanFile) -> Self {
-        let source = TaskSource::File(format!("{}.yaml", file.task.name));
-        Self { file, source, trajectory: None, violations: Vec::new() }
-    }
-
-    /// Replays the unperturbed plan in both engines.
-    fn replayed(&self) -> Verdict {
-        let PlanFile { task, tools, plan, .. } = &self.file;
-        let verifier = Verifier::new(VerifySettings { replays: 0, seed: 0 });
-        verifier.nominal(task, &Situation::stated(&task.scene), tools, plan)
-    }
-
-    fn json(&self) -> PyResult<serde_json::Value> {
-        serde_json::to_value(&self.file).map_err(|error| PyRuntimeError::new_err(error.to_string()))
     }
 }

@@ -6,6 +6,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
+use crate::arguments;
+
 /// Maximum length (metres) and speed (m/s) of a push, as in the command.
 pub const MOST: f64 = 2.0;
 
@@ -17,11 +19,16 @@ pub const MOST: f64 = 2.0;
 ///     Position of the end effector at the start, `[x, y]` in metres. With `None` the push starts
 ///     where the last one ended, or at the robot's home (chained pushes only).
 /// direction : float
-///     Direction of travel, radians from world +x.
+///     Direction of travel, radians from world +x, -4 pi to 4 pi.
 /// length : float, optional
 ///     Travel, metres, above 0 and at most 2; by default the task's.
 /// speed : float, optional
 ///     Speed, m/s, above 0 and at most 2; by default the task's.
+///
+/// Raises
+/// ------
+/// TypeError or ValueError
+///     If an argument is no number, not finite or out of range.
 ///
 /// Examples
 /// --------
@@ -37,13 +44,14 @@ impl PyPush {
     #[new]
     #[pyo3(signature = (start, direction, length = None, speed = None))]
     fn new(
-        start: Option<[f64; 2]>,
-        direction: f64,
-        length: Option<f64>,
-        speed: Option<f64>,
+        #[pyo3(from_py_with = place)] start: Option<[f64; 2]>,
+        #[pyo3(from_py_with = direction)] direction: f64,
+        #[pyo3(from_py_with = length)] length: Option<f64>,
+        #[pyo3(from_py_with = speed)] speed: Option<f64>,
     ) -> PyResult<Self> {
         let at = |[x, y]: [f64; 2]| ManualStart::At(Vector::new(x, y));
-        checked(ManualPush { start: start.map_or(ManualStart::Last, at), direction, length, speed })
+        let start = start.map_or(ManualStart::Last, at);
+        Ok(Self(ManualPush { start, direction, length, speed }))
     }
 
     /// Creates a push that starts just before an object.
@@ -53,7 +61,7 @@ impl PyPush {
     /// object : str
     ///     Name of the object.
     /// direction : float
-    ///     Direction of travel, radians from world +x.
+    ///     Direction of travel, radians from world +x, -4 pi to 4 pi.
     /// offset : float, default 0
     ///     Lateral offset of the object's centre from the centre line of the tool's face, metres,
     ///     positive to the left.
@@ -62,21 +70,30 @@ impl PyPush {
     /// speed : float, optional
     ///     Speed, m/s; by default the task's.
     ///
+    /// Returns
+    /// -------
+    /// Push
+    ///     Push whose start follows from the tool and the pose of the object.
+    ///
     /// Raises
     /// ------
-    /// ValueError
-    ///     If a number is not finite or out of range.
+    /// TypeError or ValueError
+    ///     If an argument is no number, not finite or out of range.
+    ///
+    /// Examples
+    /// --------
+    /// >>> push = pushplan.Push.before("can", math.pi, length=0.15)
     #[staticmethod]
     #[pyo3(signature = (object, direction, offset = 0.0, length = None, speed = None))]
     fn before(
         object: String,
-        direction: f64,
-        offset: f64,
-        length: Option<f64>,
-        speed: Option<f64>,
+        #[pyo3(from_py_with = direction)] direction: f64,
+        #[pyo3(from_py_with = offset)] offset: f64,
+        #[pyo3(from_py_with = length)] length: Option<f64>,
+        #[pyo3(from_py_with = speed)] speed: Option<f64>,
     ) -> PyResult<Self> {
         let start = ManualStart::Before { object, offset };
-        checked(ManualPush { start, direction, length, speed })
+        Ok(Self(ManualPush { start, direction, length, speed }))
     }
 
     /// Position of the end effector at the start, metres; `None` if the push does not state it.
@@ -168,24 +185,51 @@ impl From<&Push> for PyPush {
     }
 }
 
-fn checked(push: ManualPush) -> PyResult<PyPush> {
-    let place = match &push.start {
-        ManualStart::At(at) => [at.x, at.y],
-        ManualStart::Last => [0.0; 2],
-        ManualStart::Before { offset, .. } => [*offset, 0.0],
-    };
-    if !(place.iter().all(|value| value.is_finite()) && push.direction.is_finite()) {
-        return Err(PyValueError::new_err(
-            "`start`, `offset` and `direction` of a push must be finite numbers",
-        ));
+fn place(given: &Bound<'_, PyAny>) -> PyResult<Option<[f64; 2]>> {
+    if given.is_none() {
+        return Ok(None);
     }
-    for (name, value) in [("length", push.length), ("speed", push.speed)] {
-        if let Some(found) = value.filter(|value| !(*value > 0.0 && *value <= MOST)) {
-            let unit = if name == "speed" { "m/s" } else { "m" };
-            let message =
-                format!("{name} must be above 0 and at most {MOST} {unit}, found {found}");
-            return Err(PyValueError::new_err(message));
-        }
+    let place: Option<[f64; 2]> = given.extract().ok();
+    match place.filter(|place| place.iter().all(|value| value.is_finite())) {
+        Some(place) => Ok(Some(place)),
+        None => Err(PyValueError::new_err(format!(
+            "`start` must be two finite numbers, x and y in metres, or None to continue from \
+             the last push, found {}",
+            given.repr()?
+        ))),
     }
-    Ok(PyPush(push))
+}
+
+fn direction(given: &Bound<'_, PyAny>) -> PyResult<f64> {
+    arguments::angle("direction", arguments::number("direction", given)?)
+}
+
+fn offset(given: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let offset = arguments::number("offset", given)?;
+    if offset.abs() <= MOST {
+        return Ok(offset);
+    }
+    let message = format!("`offset` must be from -{MOST} to {MOST} m, found {offset}; give metres");
+    Err(PyValueError::new_err(message))
+}
+
+fn length(given: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
+    above_zero("length", "m", given)
+}
+
+fn speed(given: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
+    above_zero("speed", "m/s", given)
+}
+
+fn above_zero(name: &str, unit: &str, given: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
+    if given.is_none() {
+        return Ok(None);
+    }
+    let value = arguments::number(name, given)?;
+    if value > 0.0 && value <= MOST {
+        return Ok(Some(value));
+    }
+    let message =
+        format!("`{name}` must be above 0 and at most {MOST} {unit}, found {value}; give {unit}");
+    Err(PyValueError::new_err(message))
 }

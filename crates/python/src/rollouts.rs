@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use numpy::ndarray::Axis;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArray4};
-use pushplan::progress::{Cancel, Progress};
+use pushplan::progress::Progress;
 use pushplan::{
     EffectModel, Job, Outcome, Push, PushForm, Record, Situation, Task, ToolMotion, Trajectory,
     Vector, Warning,
@@ -13,11 +13,11 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
-use crate::arrays::{self, Numbers};
+use crate::progress::Watch;
 use crate::push::MOST;
 use crate::task::PyTask;
 use crate::tool::{PyToolLibrary, tool};
-use crate::{arguments, work};
+use crate::{arguments, arrays, wanted, work};
 
 /// Number of candidates between two checks for cancellation: tens of milliseconds with the analytic
 /// model.
@@ -73,8 +73,8 @@ impl Rollouts {
 /// tool : Tool or str
 ///     Tool, or the name of a tool in `tools`.
 /// pushes : array_like, `[candidates, pushes, 5]` or `[candidates, 5]`
-///     Pushes of every candidate: x and y of the end effector at the start (metres), direction
-///     (radians from world +x), length (metres) and speed (m/s).
+///     Pushes of every candidate, such as `Plan.push_array`: x and y of the end effector at the
+///     start (metres), direction (radians from world +x), length (metres) and speed (m/s).
 /// grip_yaw : float or array_like, `[candidates]`, default 0
 ///     Rotation of the end effector against world +x, radians.
 /// start : array_like, `[objects, 3]` or `[candidates, objects, 3]`, optional
@@ -99,7 +99,7 @@ impl Rollouts {
 ///
 /// Raises
 /// ------
-/// ActionError
+/// UnknownToolError
 ///     If `tools` contains no tool named `tool`.
 /// ModelError
 ///     If `model` is not the name of an effect model.
@@ -117,16 +117,16 @@ impl Rollouts {
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn rollout(
     py: Python<'_>,
-    task: &PyTask,
+    #[pyo3(from_py_with = wanted::task)] task: Py<PyTask>,
     tool: &Bound<'_, PyAny>,
-    pushes: Numbers<'_>,
-    grip_yaw: Option<Numbers<'_>>,
-    start: Option<Numbers<'_>>,
+    pushes: &Bound<'_, PyAny>,
+    grip_yaw: Option<&Bound<'_, PyAny>>,
+    start: Option<&Bound<'_, PyAny>>,
     model: &str,
     out_of_range: &str,
     record: &str,
-    tools: Option<Py<PyToolLibrary>>,
-    threads: usize,
+    #[pyo3(from_py_with = wanted::tools)] tools: Option<Py<PyToolLibrary>>,
+    #[pyo3(from_py_with = arguments::threads)] threads: usize,
 ) -> PyResult<Rollouts> {
     let tool = self::tool(py, tool, tools.as_ref())?;
     let model = arguments::model(py, model, arguments::out_of_range(out_of_range)?)?;
@@ -138,11 +138,10 @@ pub fn rollout(
             return Err(PyValueError::new_err(message));
         }
     };
-    let task = Arc::clone(&task.task);
-    let pushes = candidates(&pushes)?;
-    let yaws = yaws(grip_yaw.as_ref(), pushes.len())?;
-    let starts = starts(start.as_ref(), &task, pushes.len())?;
-    let threads = arguments::threads(threads)?;
+    let task = Arc::clone(&task.get().task);
+    let pushes = candidates(pushes)?;
+    let yaws = yaws(grip_yaw, pushes.len())?;
+    let starts = starts(start, &task, pushes.len())?;
     let packed = work::run(py, threads, |cancel| {
         let (rules, scene) = (&task.pushes, &task.scene);
         let placed = rules.form == PushForm::Placed;
@@ -180,7 +179,7 @@ fn roll(
     task: &Task,
     jobs: &[Job],
     record: Record,
-    cancel: &Cancel,
+    cancel: &Watch,
 ) -> Option<Packed> {
     let mut rolled: Vec<Trajectory> = Vec::with_capacity(jobs.len());
     for some in jobs.chunks(AT_ONCE) {
@@ -246,21 +245,22 @@ impl Packed {
 }
 
 /// Returns the pushes of every candidate.
-fn candidates(pushes: &Numbers<'_>) -> PyResult<Vec<Vec<Push>>> {
+fn candidates(pushes: &Bound<'_, PyAny>) -> PyResult<Vec<Vec<Push>>> {
+    let shape = "[candidates, pushes, 5] or [candidates, 5] (x, y, direction, length, speed)";
+    let pushes = arrays::numbers_of("pushes", pushes, shape)?;
     let all = pushes.as_array();
     let all = match all.ndim() {
         2 => all.insert_axis(Axis(1)),
         _ => all,
     };
     if all.ndim() != 3 || all.len_of(Axis(2)) != COLUMNS || all.len_of(Axis(1)) == 0 {
-        let message = format!(
-            "`pushes` must have the shape [candidates, pushes, 5] or [candidates, 5] (x, y, \
-             direction, length, speed), found {:?}",
-            pushes.as_array().shape()
-        );
+        let message =
+            format!("`pushes` must have the shape {shape}, found {:?}", pushes.as_array().shape());
         return Err(PyValueError::new_err(message));
     }
-    arrays::finite("pushes", &all)?;
+    for direction in all.index_axis(Axis(2), 2) {
+        arguments::angle("direction", *direction)?;
+    }
     for (column, name) in [(3, "lengths"), (4, "speeds")] {
         let sound = |value: &f64| *value > 0.0 && *value <= MOST;
         if let Some(found) = all.index_axis(Axis(2), column).iter().find(|&value| !sound(value)) {
@@ -279,10 +279,13 @@ fn candidates(pushes: &Numbers<'_>) -> PyResult<Vec<Vec<Push>>> {
 }
 
 /// Returns the grip yaw of every candidate.
-fn yaws(given: Option<&Numbers<'_>>, candidates: usize) -> PyResult<Vec<f64>> {
+fn yaws(given: Option<&Bound<'_, PyAny>>, candidates: usize) -> PyResult<Vec<f64>> {
     let Some(given) = given else { return Ok(vec![0.0; candidates]) };
+    let given = arrays::numbers_of("grip_yaw", given, "[] or [candidates]")?;
     let given = given.as_array();
-    arrays::finite("grip_yaw", &given)?;
+    for yaw in &given {
+        arguments::angle("grip_yaw", *yaw)?;
+    }
     match given.shape() {
         [] => Ok(vec![given.first().copied().unwrap_or_default(); candidates]),
         [count] if *count == candidates => Ok(given.iter().copied().collect()),
@@ -294,14 +297,14 @@ fn yaws(given: Option<&Numbers<'_>>, candidates: usize) -> PyResult<Vec<f64>> {
 
 /// Returns the start states: `None` if not given, one for all candidates, or one per candidate.
 fn starts(
-    given: Option<&Numbers<'_>>,
+    given: Option<&Bound<'_, PyAny>>,
     task: &Task,
     candidates: usize,
 ) -> PyResult<Option<Vec<pushplan::State>>> {
     let Some(given) = given else { return Ok(None) };
-    let given = given.as_array();
-    arrays::finite("start", &given)?;
     let objects = task.scene.things().count();
+    let given = arrays::numbers_of("start", given, &format!("[{objects}, 3]"))?;
+    let given = given.as_array();
     let state = |given: numpy::ndarray::ArrayViewD<'_, f64>| {
         pushplan::State::at_rest(task.scene.with_parts(arrays::state(given).poses))
     };

@@ -4,70 +4,23 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use numpy::PyArray2;
-use pushplan::{Noise, ObservedPose, Tool, ToolMotion, Vector};
-use pushplan_act::act::{ActError, End, Look, SimulatedWorld, World, WorldError};
-use pushplan_act::{RunSettings, Runner, Trace, hidden};
+use pushplan::Noise;
+use pushplan_act::act::{ActError, End};
+use pushplan_act::{RunSettings, Runner, Trace};
 use pushplan_report::{PageView, Recipe, run_document, run_page};
-use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
-use crate::arrays::{self, Numbers};
 use crate::belief::shipped_regulator;
+use crate::progress::Observer;
 use crate::push::PyPush;
 use crate::solve::{Asked, stated};
 use crate::table_fit::PyTableFit;
 use crate::task::PyTask;
-use crate::tool::{PyTool, PyToolLibrary, given};
-use crate::{arguments, errors, json, page, work};
-
-/// Motion that a world executes. The robot sets the tool down at the start of the first stroke,
-/// moves it along all strokes, waits until the objects rest, and lifts it.
-#[pyclass(name = "Motion", module = "pushplan", frozen)]
-pub struct PyMotion(ToolMotion);
-
-#[pymethods]
-impl PyMotion {
-    /// Tool of the motion.
-    #[getter]
-    fn tool(&self) -> PyTool {
-        PyTool(Arc::clone(&self.0.tool))
-    }
-
-    /// Height of the tool's underside above the table, metres.
-    #[getter]
-    fn lift(&self) -> f64 {
-        self.0.lift
-    }
-
-    /// Poses of the end effector at start and end of every stroke, `[strokes, 6]`: x, y (metres),
-    /// heading (radians), x, y, heading.
-    #[getter]
-    fn end_effector<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let grip = self.0.tool.grip;
-        let ends = self.0.strokes.iter().flat_map(|stroke| [stroke.from * grip, stroke.to * grip]);
-        let numbers = ends.flat_map(|pose| arrays::numbers(&pose)).collect();
-        arrays::array(py, numbers, [self.0.strokes.len(), 6])
-    }
-
-    /// Poses of the tool frame, in the format of `end_effector`.
-    #[getter]
-    fn tool_frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let ends = self.0.strokes.iter().flat_map(|stroke| [stroke.from, stroke.to]);
-        let numbers = ends.flat_map(|pose| arrays::numbers(&pose)).collect();
-        arrays::array(py, numbers, [self.0.strokes.len(), 6])
-    }
-
-    /// Duration of each stroke, seconds.
-    #[getter]
-    fn durations(&self) -> Vec<f64> {
-        self.0.strokes.iter().map(|stroke| stroke.duration).collect()
-    }
-
-    fn __repr__(&self) -> String {
-        format!("<Motion of {} strokes with {}>", self.0.strokes.len(), self.0.tool.name)
-    }
-}
+use crate::tool::{PyToolLibrary, given};
+use crate::world::Place;
+use crate::{arguments, arrays, errors, json, page, wanted, work};
 
 /// Record of a closed-loop run: observations, beliefs, plans and pushes.
 #[pyclass(name = "Run", module = "pushplan", frozen)]
@@ -123,7 +76,19 @@ impl PyRun {
         self.0.all_notes().map(|note| note.words(&self.0.task.scene)).collect()
     }
 
-    /// Writes the trace of the run (`*.run.json`), or raises `FileError`.
+    /// Writes the trace of the run (`*.run.json`).
+    ///
+    /// The file is replaced as a whole, so that no partial file remains after an error.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or path-like
+    ///     File to write, in an existing folder.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     If the file cannot be written.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         self.0.write(&path).map_err(|faults| errors::files(py, &faults, None))
     }
@@ -199,6 +164,8 @@ impl PyRun {
 ///     Table fit of this table; the pushes of the run continue the fit.
 /// regulator : bool, default True
 ///     Whether the belief regulator corrects the probabilities of joints.
+/// progress : bool or callable, optional
+///     Receiver of the stage and the number of executed motions, see `solve`.
 ///
 /// Returns
 /// -------
@@ -210,31 +177,39 @@ impl PyRun {
 /// TypeError or ValueError
 ///     If an argument is invalid. The function also raises the errors of `solve` and any
 ///     exception of `world`, which ends the run.
+///
+/// Examples
+/// --------
+/// >>> task = pushplan.Task.example("hidden-hinge")
+/// >>> ran = pushplan.run(task, 1)
+/// >>> print(ran.end, len(ran.pushes))
 #[pyfunction]
 #[pyo3(signature = (task, world, tools = None, *, effort = "draft", model = None,
                     out_of_range = "warn", seed = 0, max_pushes = 12, samples = 16,
                     min_success = 0.8, max_probes = 3, noise = None, fit = None,
-                    regulator = true, threads = 0))]
+                    regulator = true, threads = 0, progress = None))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn run(
     py: Python<'_>,
-    task: &PyTask,
+    #[pyo3(from_py_with = wanted::task)] task: Py<PyTask>,
     world: Bound<'_, PyAny>,
-    tools: Option<Py<PyToolLibrary>>,
+    #[pyo3(from_py_with = wanted::tools)] tools: Option<Py<PyToolLibrary>>,
     effort: &str,
     model: Option<&str>,
     out_of_range: &str,
-    seed: u64,
-    max_pushes: usize,
-    samples: usize,
-    min_success: f64,
-    max_probes: usize,
+    #[pyo3(from_py_with = arguments::seed)] seed: u64,
+    #[pyo3(from_py_with = arguments::max_pushes)] max_pushes: usize,
+    #[pyo3(from_py_with = arguments::samples)] samples: usize,
+    #[pyo3(from_py_with = arguments::min_success)] min_success: f64,
+    #[pyo3(from_py_with = arguments::max_probes)] max_probes: usize,
     noise: Option<(f64, f64)>,
-    fit: Option<Py<PyTableFit>>,
+    #[pyo3(from_py_with = wanted::fit)] fit: Option<Py<PyTableFit>>,
     regulator: bool,
-    threads: usize,
+    #[pyo3(from_py_with = arguments::threads)] threads: usize,
+    progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PyRun> {
-    let fit = fit.as_ref().map(|fit| &fit.get().0);
+    let (task, fit) = (task.get(), fit.as_ref().map(|fit| &fit.get().0));
+    let observer = Observer::of(py, progress)?;
     let (replays, time_limit) = (None, None);
     let planner =
         Asked { effort, model, out_of_range, seed, replays, time_limit, fit }.planner(py)?;
@@ -245,45 +220,25 @@ pub fn run(
     if regulator {
         runner = runner.regulated(shipped_regulator()?);
     }
-    if !(0.0..=1.0).contains(&min_success) || !(1..=1000).contains(&samples) || max_pushes > 1000 {
-        let message =
-            "`min_success` must be 0 to 1, `samples` 1 to 1000 and `max_pushes` at most 1000";
-        return Err(PyValueError::new_err(message));
-    }
     let defaults = RunSettings::default();
     let noise = match noise {
         Some((position, heading)) if position > 0.0 && heading > 0.0 => Noise { position, heading },
         Some(found) => {
-            let message = format!("`noise` must be two numbers above 0, found {found:?}");
+            let message =
+                format!("`noise` must be two numbers above 0, metres and radians, found {found:?}");
             return Err(PyValueError::new_err(message));
         }
         None => defaults.noise,
     };
     let settings =
         RunSettings { max_pushes, samples, min_success, max_probes, noise, seed, ..defaults };
-    let mut place = match world.extract::<u64>() {
-        Ok(number) => {
-            let truth = hidden(&task.task, &library, number);
-            let truth = truth.map_err(|faults| errors::files(py, &faults, None))?;
-            let world = SimulatedWorld::new(truth).pushed_with(task.task.robot.max_force);
-            Place::Drawn(Box::new(world))
-        }
-        Err(_) if world.hasattr("look")? && world.hasattr("act")? => {
-            Place::Theirs { object: world.unbind(), raised: None }
-        }
-        Err(_) => {
-            let message =
-                "`world` must be a whole number, or an object with the methods `look` and `act`";
-            return Err(PyTypeError::new_err(message));
-        }
-    };
+    let mut place = Place::of(py, &task.task, &library, world)?;
     let planned_by =
         format!("{}, effort {effort}, out-of-range {out_of_range}", model.unwrap_or("default"));
     let stated = stated(Arc::clone(&task.task), fit);
     let mut trace = Trace::new(stated.as_ref().clone(), settings, planned_by, None);
-    let threads = arguments::threads(threads)?;
-    let ran = work::run(py, threads, |cancel| {
-        runner.run_with(&mut trace, &mut place, &mut |_| Ok(()), cancel)
+    let ran = work::follow(py, threads, &observer, |watch| {
+        runner.run_with(&mut trace, &mut place, &mut |_| Ok(()), watch)
     })?;
     if let Place::Theirs { raised: Some(error), .. } = place {
         return Err(error);
@@ -294,103 +249,4 @@ pub fn run(
         Err(error @ ActError::Objects { .. }) => Err(PyValueError::new_err(error.to_string())),
         Err(error) => Err(PyRuntimeError::new_err(error.to_string())),
     }
-}
-
-/// World in which a run acts.
-enum Place {
-    /// World simulated by the library.
-    Drawn(Box<SimulatedWorld>),
-    /// World implemented by a Python object, with the exception it raised, if any.
-    Theirs { object: Py<PyAny>, raised: Option<PyErr> },
-}
-
-impl Place {
-    /// Calls the Python object; an exception is kept for the caller of the run.
-    fn ask<T>(
-        &mut self,
-        ask: impl FnOnce(Python<'_>, &Bound<'_, PyAny>) -> PyResult<T>,
-    ) -> Result<T, WorldError> {
-        let Place::Theirs { object, raised } = self else {
-            return Err(WorldError("this world is simulated and has no Python object".to_owned()));
-        };
-        Python::attach(|py| {
-            ask(py, object.bind(py)).map_err(|error| {
-                let words = WorldError(error.to_string());
-                *raised = Some(error);
-                words
-            })
-        })
-    }
-}
-
-impl World for Place {
-    fn look(&mut self) -> Result<Look, WorldError> {
-        match self {
-            Place::Drawn(world) => world.look(),
-            Place::Theirs { .. } => self.ask(|_, world| {
-                let seen = sights(&world.call_method0("look")?)?;
-                Ok(Look { time: 0.0, seen })
-            }),
-        }
-    }
-
-    fn change_tool(&mut self, tool: &Tool) -> Result<(), WorldError> {
-        match self {
-            Place::Drawn(_) => Ok(()),
-            Place::Theirs { .. } => self.ask(|_, world| {
-                if world.hasattr("change_tool")? {
-                    world.call_method1("change_tool", (PyTool(Arc::new(tool.clone())),))?;
-                }
-                Ok(())
-            }),
-        }
-    }
-
-    fn act(&mut self, motion: &ToolMotion) -> Result<Vec<Look>, WorldError> {
-        match self {
-            Place::Drawn(world) => world.act(motion),
-            Place::Theirs { .. } => self.ask(|_, world| {
-                let looks = world.call_method1("act", (PyMotion(motion.clone()),))?;
-                let look = |pair: Bound<'_, PyAny>| {
-                    let (time, poses): (f64, Bound<'_, PyAny>) = pair.extract()?;
-                    Ok(Look { time, seen: sights(&poses)? })
-                };
-                looks.try_iter()?.map(|pair| look(pair?)).collect()
-            }),
-        }
-    }
-
-    fn stopped(&self) -> Option<pushplan_act::act::Stop> {
-        match self {
-            Place::Drawn(world) => world.stopped(),
-            Place::Theirs { .. } => None,
-        }
-    }
-
-    fn save(&self) -> Option<pushplan_act::act::WorldState> {
-        match self {
-            Place::Drawn(world) => world.save(),
-            Place::Theirs { .. } => None,
-        }
-    }
-}
-
-/// Converts an array `[objects, 3]` to observations.
-fn sights(array: &Bound<'_, PyAny>) -> PyResult<Vec<Option<ObservedPose>>> {
-    let numbers: Numbers<'_> = array.extract()?;
-    let numbers = numbers.as_array();
-    if numbers.ndim() != 2 || numbers.shape()[1] != 3 {
-        let message = format!(
-            "observed poses must have the shape [objects, 3], found {:?}; see `pushplan.run`",
-            numbers.shape()
-        );
-        return Err(PyValueError::new_err(message));
-    }
-    let sight = |k: usize| {
-        let [x, y, heading] = [0, 1, 2].map(|column| numbers[[k, column]]);
-        let heading = heading.is_finite().then_some(heading);
-        let seen = x.is_finite() && y.is_finite();
-        seen.then_some(ObservedPose { position: Vector::new(x, y), heading })
-    };
-    Ok((0..numbers.shape()[0]).map(sight).collect())
 }

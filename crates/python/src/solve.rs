@@ -1,27 +1,20 @@
-//! Functions that solve tasks, and predict and verify plans.
+//! Functions that solve tasks.
 
 use std::sync::Arc;
+use std::time::Duration;
 
-use pushplan::files::PlanFile;
-use pushplan::models::{Fallback, ModelKind};
-use pushplan::outcomes::VerifySettings;
-use pushplan::progress::{Cancel, Until};
-use pushplan::{
-    EffectModel, Job, Planner, Pose, Record, Simulator, Situation, Solution, SolveError, TableFit,
-    Task, ToolLibrary, Trajectory, Verifier, Warning,
-};
+use pushplan::progress::{Count, Progress, Quiet};
+use pushplan::{Planner, Solution, SolveError, TableFit, Task, ToolLibrary};
 use pushplan_report::TaskSource;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-use crate::plan::PyPlan;
+use crate::progress::{Observer, Watch};
 use crate::solution::PySolution;
 use crate::table_fit::PyTableFit;
 use crate::task::PyTask;
 use crate::tool::{PyToolLibrary, given};
-use crate::trajectory::PyTrajectory;
-use crate::verdict::PyVerdict;
-use crate::{arguments, errors, work};
+use crate::{arguments, errors, wanted, work};
 
 /// Chooses a tool and pushes that solve a task, and verifies the plans.
 ///
@@ -42,8 +35,8 @@ use crate::{arguments, errors, work};
 /// seed : int, default 0
 ///     Seed of the samples of refinement and of the perturbations.
 /// replays : int, optional
-///     Minimum number of perturbed replays of the winning plan in each engine; by default the
-///     effort's. The planner adds replays until the verdict is clear.
+///     Minimum number of perturbed replays of the winning plan in each engine, at most 100000; by
+///     default the effort's. The planner adds replays until the verdict is clear.
 /// robustness : float, optional
 ///     Minimum share of the perturbed replays that must reach the goal, 0 to 1; by default the
 ///     task's.
@@ -53,6 +46,9 @@ use crate::{arguments, errors, work};
 ///     Table fit from pushes recorded on this table.
 /// threads : int, default 0
 ///     Number of worker threads, at most 1024; 0 means one per core. No result depends on it.
+/// progress : bool or callable, optional
+///     Function that is called with a `Progress` while the planner works, or True for a line on
+///     stderr, if that is a terminal. Progress changes no result.
 ///
 /// Returns
 /// -------
@@ -69,40 +65,42 @@ use crate::{arguments, errors, work};
 ///     If `model` is not the name of an effect model.
 /// RefusedError
 ///     If `out_of_range` is "refuse" and the task is outside the model's validity range.
-/// ValueError
-///     If another argument has an invalid value.
+/// TypeError or ValueError
+///     If another argument has an invalid type or value.
 ///
 /// Examples
 /// --------
 /// >>> task = pushplan.Task.example("pull-back-behind-wall")
-/// >>> solution = pushplan.solve(task, effort="draft")
+/// >>> solution = pushplan.solve(task, effort="draft", progress=True)
 /// >>> print(solution.status, solution.best)
 #[pyfunction]
 #[pyo3(signature = (task, tools = None, *, effort = "standard", model = None,
                     out_of_range = "warn", seed = 0, replays = None, robustness = None,
-                    time_limit = None, fit = None, threads = 0))]
+                    time_limit = None, fit = None, threads = 0, progress = None))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn solve(
     py: Python<'_>,
-    task: &PyTask,
-    tools: Option<Py<PyToolLibrary>>,
+    #[pyo3(from_py_with = wanted::task)] task: Py<PyTask>,
+    #[pyo3(from_py_with = wanted::tools)] tools: Option<Py<PyToolLibrary>>,
     effort: &str,
     model: Option<&str>,
     out_of_range: &str,
-    seed: u64,
-    replays: Option<usize>,
-    robustness: Option<f64>,
-    time_limit: Option<f64>,
-    fit: Option<Py<PyTableFit>>,
-    threads: usize,
+    #[pyo3(from_py_with = arguments::seed)] seed: u64,
+    #[pyo3(from_py_with = arguments::maybe_replays)] replays: Option<usize>,
+    #[pyo3(from_py_with = arguments::robustness)] robustness: Option<f64>,
+    #[pyo3(from_py_with = arguments::time_limit)] time_limit: Option<Duration>,
+    #[pyo3(from_py_with = wanted::fit)] fit: Option<Py<PyTableFit>>,
+    #[pyo3(from_py_with = arguments::threads)] threads: usize,
+    progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PySolution> {
     let fit = fit.as_ref().map(|fit| &fit.get().0);
     let asked = Asked { effort, model, out_of_range, seed, replays, time_limit, fit };
     let planner = asked.planner(py)?;
     let library = given(py, tools.as_ref())?;
-    let stated = stated(task.robust(robustness)?, fit);
-    let threads = arguments::threads(threads)?;
-    let solved = work::run(py, threads, |cancel| planner.solve_with(&stated, &library, cancel))?;
+    let (task, observer) = (task.get(), Observer::of(py, progress)?);
+    let stated = stated(task.robust(robustness), fit);
+    let solved =
+        work::follow(py, threads, &observer, |watch| planner.solve_with(&stated, &library, watch))?;
     solution(py, stated, task.source(), solved, &planner)
 }
 
@@ -122,6 +120,8 @@ pub fn stated(task: Arc<Task>, fit: Option<&TableFit>) -> Arc<Task> {
 ///     Tasks to solve.
 /// tools, effort, model, out_of_range, seed, replays, robustness, time_limit, fit, threads
 ///     Options for every task, see `solve`.
+/// progress : bool or callable, optional
+///     Receiver of the number of solved tasks, see `solve`.
 ///
 /// Returns
 /// -------
@@ -130,36 +130,44 @@ pub fn stated(task: Arc<Task>, fit: Option<&TableFit>) -> Arc<Task> {
 ///
 /// Raises
 /// ------
-/// PushplanError or ValueError
-///     For the first task that `solve` would reject.
+/// PushplanError, TypeError or ValueError
+///     For the first task that `solve` would reject, or an invalid argument.
+///
+/// Examples
+/// --------
+/// >>> tasks = [task.at(task.start + [0.01 * k, 0.0, 0.0]) for k in range(3)]
+/// >>> solutions = pushplan.solve_all(tasks, effort="draft", progress=True)
+/// >>> print(sum(solution.solved for solution in solutions))
 #[pyfunction]
 #[pyo3(signature = (tasks, tools = None, *, effort = "standard", model = None,
                     out_of_range = "warn", seed = 0, replays = None, robustness = None,
-                    time_limit = None, fit = None, threads = 0))]
+                    time_limit = None, fit = None, threads = 0, progress = None))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn solve_all(
     py: Python<'_>,
-    tasks: Vec<Py<PyTask>>,
-    tools: Option<Py<PyToolLibrary>>,
+    #[pyo3(from_py_with = wanted::tasks)] tasks: Vec<Py<PyTask>>,
+    #[pyo3(from_py_with = wanted::tools)] tools: Option<Py<PyToolLibrary>>,
     effort: &str,
     model: Option<&str>,
     out_of_range: &str,
-    seed: u64,
-    replays: Option<usize>,
-    robustness: Option<f64>,
-    time_limit: Option<f64>,
-    fit: Option<Py<PyTableFit>>,
-    threads: usize,
+    #[pyo3(from_py_with = arguments::seed)] seed: u64,
+    #[pyo3(from_py_with = arguments::maybe_replays)] replays: Option<usize>,
+    #[pyo3(from_py_with = arguments::robustness)] robustness: Option<f64>,
+    #[pyo3(from_py_with = arguments::time_limit)] time_limit: Option<Duration>,
+    #[pyo3(from_py_with = wanted::fit)] fit: Option<Py<PyTableFit>>,
+    #[pyo3(from_py_with = arguments::threads)] threads: usize,
+    progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Vec<PySolution>> {
     let fit = fit.as_ref().map(|fit| &fit.get().0);
     let asked = Asked { effort, model, out_of_range, seed, replays, time_limit, fit };
     let planner = asked.planner(py)?;
     let library = given(py, tools.as_ref())?;
-    let stated: PyResult<Vec<Arc<Task>>> =
-        tasks.iter().map(|task| Ok(stated(task.get().robust(robustness)?, fit))).collect();
-    let stated = stated?;
-    let threads = arguments::threads(threads)?;
-    let solved = work::run(py, threads, |cancel| solve_each(&planner, &stated, &library, cancel))?;
+    let observer = Observer::of(py, progress)?;
+    let stated: Vec<Arc<Task>> =
+        tasks.iter().map(|task| stated(task.get().robust(robustness), fit)).collect();
+    let solved = work::follow(py, threads, &observer, |watch| {
+        solve_each(&planner, &stated, &library, watch)
+    })?;
     let results = stated.into_iter().zip(&tasks).zip(solved);
     results
         .map(|((stated, task), solved)| solution(py, stated, task.get().source(), solved, &planner))
@@ -170,9 +178,17 @@ fn solve_each(
     planner: &Planner,
     tasks: &[Arc<Task>],
     library: &ToolLibrary,
-    cancel: &Cancel,
+    watch: &Watch,
 ) -> Vec<Result<Solution, SolveError>> {
-    tasks.par_iter().map(|task| planner.solve_with(task, library, cancel)).collect()
+    watch.stage("tasks");
+    let count = Count::new(watch, 0, tasks.len());
+    let solve = |task: &Arc<Task>| {
+        let solved = planner.solve_with(task, library, &Quiet(watch));
+        count.one();
+        solved
+    };
+    // After a cancellation the results are discarded.
+    tasks.par_iter().map(|task| (!watch.cancelled()).then(|| solve(task))).while_some().collect()
 }
 
 /// Arguments of `solve` as given by the caller.
@@ -182,7 +198,7 @@ pub struct Asked<'a> {
     pub out_of_range: &'a str,
     pub seed: u64,
     pub replays: Option<usize>,
-    pub time_limit: Option<f64>,
+    pub time_limit: Option<Duration>,
     pub fit: Option<&'a TableFit>,
 }
 
@@ -201,7 +217,7 @@ impl Asked<'_> {
             None => effort.settings(),
         };
         let builder = planner.settings(settings).seed(self.seed).out_of_range(out_of_range);
-        Ok(match arguments::limit(self.time_limit)? {
+        Ok(match self.time_limit {
             Some(limit) => builder.time_limit(limit).build(),
             None => builder.build(),
         })
@@ -217,151 +233,4 @@ fn solution(
 ) -> PyResult<PySolution> {
     let solution = solved.map_err(|error| errors::solve(py, &error))?;
     Ok(PySolution { task, source, solution, fit: planner.fit().cloned() })
-}
-
-/// Predicts the motion of the objects under a plan, frame by frame.
-///
-/// Parameters
-/// ----------
-/// plan : Plan
-///     Plan to predict. A table fit of the plan applies if `model` is the plan's own model.
-/// model : str, default "network"
-///     Effect model, such as "network", "prior" (the analytic model), "planar" or "3d".
-/// out_of_range : {"warn", "simulate", "refuse"}, default "warn"
-///     Action outside the model's validity range, see `solve`.
-/// threads : int, default 0
-///     Number of worker threads; 0 means one per core.
-///
-/// Returns
-/// -------
-/// Trajectory
-///     Predicted motion, with the warnings of the model.
-///
-/// Raises
-/// ------
-/// ModelError
-///     If `model` is not the name of an effect model.
-/// RefusedError
-///     If `out_of_range` is "refuse" and the plan is outside the model's validity range.
-/// ValueError
-///     If `out_of_range` or `threads` has an invalid value.
-#[pyfunction]
-#[pyo3(signature = (plan, model = "network", *, out_of_range = "warn", threads = 0))]
-pub fn predict(
-    py: Python<'_>,
-    plan: &PyPlan,
-    model: &str,
-    out_of_range: &str,
-    threads: usize,
-) -> PyResult<PyTrajectory> {
-    let file = &plan.file;
-    let spec = arguments::spec(py, model)?;
-    // The fit applies only to the network that made the plan.
-    let fit = file.fit.as_ref().filter(|_| file.model.as_ref() == Some(&spec));
-    let model = arguments::fitted(py, &spec, arguments::out_of_range(out_of_range)?, fit)?;
-    let trajectory = work::run(py, arguments::threads(threads)?, |_| predicted(&model, file))?;
-    if trajectory.warnings.contains(&Warning::Refused) {
-        let message = format!(
-            "`out_of_range` is \"refuse\", and the plan is outside the validity range of the model \
-             `{}`; use another model, or `out_of_range=\"simulate\"`",
-            trajectory.by
-        );
-        return Err(errors::refused(py, &message, &trajectory.warnings));
-    }
-    Ok(PyTrajectory::new(&Arc::new(file.task.clone()), trajectory))
-}
-
-/// Predicts a plan with a model; the trajectory includes the warnings.
-pub fn predicted(model: &Fallback, file: &PlanFile) -> Trajectory {
-    let scene = &file.task.scene;
-    let motions = file.plan.motions(&file.tools).unwrap_or_default();
-    let jobs: Vec<Job> = match &motions[..] {
-        [] => {
-            let home = Pose { position: file.task.robot.home, heading: 0.0 };
-            let tool = file.tools.first().map_or(home, |tool| tool.pose(home));
-            return Trajectory::standing(ModelKind::Still.into(), tool, scene.start());
-        }
-        // Steps after a lever-up can be simulated only in 3-D.
-        [_, _, ..] if file.plan.levers() => {
-            return Simulator::spatial().run_plan(scene, &motions, Record::Frames);
-        }
-        motions => motions.iter().map(|motion| Job::stated(scene, motion.clone())).collect(),
-    };
-    let mut trajectory = model.in_turn(scene, &jobs, Record::Frames).unwrap_or_else(|| {
-        Trajectory::standing(model.spec().clone(), Pose::default(), scene.start())
-    });
-    for warning in jobs.iter().flat_map(|job| model.trust(scene, job).warnings()) {
-        if !trajectory.warnings.contains(&warning) {
-            trajectory.warnings.push(warning);
-        }
-    }
-    trajectory
-}
-
-/// Verifies a plan by nominal and perturbed replays in the 2-D and the 3-D engine.
-///
-/// Perturbed replays have small errors of starts, frictions, support and contact height. The
-/// verifier adds replays until the verdict is clear.
-///
-/// Parameters
-/// ----------
-/// plan : Plan
-///     Plan to verify.
-/// replays : int, default 8
-///     Minimum number of perturbed replays in each engine, at most 100000.
-/// seed : int, default 0
-///     Seed of the perturbations.
-/// robustness : float, optional
-///     Minimum share of the perturbed replays that must reach the goal, 0 to 1; by default the
-///     task's.
-/// time_limit : float, optional
-///     Maximum duration, seconds. Replays that are unfinished then do not pass.
-/// threads : int, default 0
-///     Number of worker threads; 0 means one per core.
-///
-/// Returns
-/// -------
-/// Verdict
-///     Verdict with all replays.
-///
-/// Raises
-/// ------
-/// ValueError
-///     If an argument has an invalid value.
-///
-/// Examples
-/// --------
-/// >>> verdict = pushplan.verify(solution.best, replays=32)
-/// >>> print(verdict.passed, verdict.robustness)
-#[pyfunction]
-#[pyo3(signature = (plan, *, replays = 8, seed = 0, robustness = None, time_limit = None,
-                    threads = 0))]
-pub fn verify(
-    py: Python<'_>,
-    plan: &PyPlan,
-    replays: usize,
-    seed: u64,
-    robustness: Option<f64>,
-    time_limit: Option<f64>,
-    threads: usize,
-) -> PyResult<PyVerdict> {
-    if replays > 100_000 {
-        let message = format!("`replays` must be at most 100000, found {replays}");
-        return Err(pyo3::exceptions::PyValueError::new_err(message));
-    }
-    let mut file = plan.file.clone();
-    let task = PyTask { task: Arc::new(file.task.clone()), source: None };
-    file.task = Task::clone(&*task.robust(robustness)?);
-    let settings = VerifySettings { replays, seed };
-    let limit = arguments::limit(time_limit)?;
-    let verdict = work::run(py, arguments::threads(threads)?, |cancel| {
-        let until = Until::new(cancel, limit);
-        let situation = Situation::stated(&file.task.scene);
-        let verifier = Verifier::new(settings)
-            .with_progress(&until)
-            .until_clear()
-            .moving(file.joints.as_ref());
-        verifier.verify(&file.task, &situation, &file.tools, &file.plan)
-    })?;
-    Ok(PyVerdict { file, verdict })
 }

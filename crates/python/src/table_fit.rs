@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
 use crate::belief::PyRecording;
-use crate::{arguments, errors, json, work};
+use crate::{arguments, errors, json, wanted, work};
 
 /// Table fit: friction, support and a change of the network's last layer, from recordings of one
 /// table. It is an argument of `solve` and `run`, and a result of `fit` and `run`.
@@ -28,6 +28,11 @@ impl PyTableFit {
     /// path : str or path-like
     ///     File that `save` or the command `pushplan fit --save-fit` wrote.
     ///
+    /// Returns
+    /// -------
+    /// TableFit
+    ///     Table fit of the file.
+    ///
     /// Raises
     /// ------
     /// FileError
@@ -40,6 +45,11 @@ impl PyTableFit {
     /// Writes the table fit (JSON).
     ///
     /// The file is replaced as a whole, so that no partial file remains after an error.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or path-like
+    ///     File to write, in an existing folder.
     ///
     /// Raises
     /// ------
@@ -130,24 +140,24 @@ impl PyTableFit {
 ///
 /// Raises
 /// ------
-/// ValueError
-///     If no object moves in the recordings.
+/// TypeError or ValueError
+///     If an argument is invalid, or no object moves in the recordings.
 ///
 /// Examples
 /// --------
-/// >>> fit = pushplan.fit([pushplan.Recording.load(path) for path in paths])
-/// >>> solution = pushplan.solve(task, fit=fit)
+/// >>> recordings = [pushplan.Recording.load("pushes.json")]
+/// >>> solution = pushplan.solve(task, fit=pushplan.fit(recordings), effort="draft")
 #[pyfunction]
 #[pyo3(signature = (recordings, *, threads = 0))]
 pub fn fit(
     py: Python<'_>,
-    recordings: Vec<Py<PyRecording>>,
-    threads: usize,
+    #[pyo3(from_py_with = wanted::recordings)] recordings: Vec<Py<PyRecording>>,
+    #[pyo3(from_py_with = arguments::threads)] threads: usize,
 ) -> PyResult<PyTableFit> {
     let network = Network::shipped().map_err(|error| errors::model(py, &error))?;
     let trials: Vec<Trial> =
         recordings.iter().map(|one| Trial::of_recording(&one.get().0)).collect();
-    let learnt = work::run(py, arguments::threads(threads)?, |_| {
+    let learnt = work::run(py, threads, |_| {
         let settings = FitSettings::default();
         let found = pushplan_act::fit::fit(&Prior::default(), &trials, &settings, &NoProgress)?;
         Some(learn(&network, &trials, &Basis::from(&found), &HeadSettings::default()))

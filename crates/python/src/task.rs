@@ -8,16 +8,15 @@ use pushplan::files::{load_example, load_task};
 use pushplan::goals::ToolChoice;
 use pushplan::{Pose, State, Task};
 use pushplan_report::TaskSource;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
-use crate::arrays::Numbers;
 use crate::json::{dict, unpickled};
 use crate::mapping::Text;
 use crate::moved::moved;
 use crate::tool::PyToolLibrary;
-use crate::{arrays, errors};
+use crate::wanted::no_constructor;
+use crate::{arrays, errors, wanted};
 
 /// Planning task: scene, robot, allowed pushes and goals.
 ///
@@ -33,6 +32,16 @@ pub struct PyTask {
 
 #[pymethods]
 impl PyTask {
+    #[new]
+    #[pyo3(signature = (*_arguments, **_named))]
+    fn new(_arguments: &Bound<'_, PyAny>, _named: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        Err(no_constructor(
+            "Task",
+            "read a file with `Task.load(path)`, take a shipped task with `Task.example(name)`, \
+             or build one with `Task.from_dict(mapping)`",
+        ))
+    }
+
     /// Reads a task file (YAML).
     ///
     /// Parameters
@@ -42,16 +51,29 @@ impl PyTask {
     /// tools : ToolLibrary, optional
     ///     Tools to check the names of the task against; by default names are not checked.
     ///
+    /// Returns
+    /// -------
+    /// Task
+    ///     Task of the file.
+    ///
     /// Raises
     /// ------
     /// FileError
     ///     If the file is unreadable or invalid, or names a tool that `tools` lacks. It lists all
     ///     faults.
+    ///
+    /// Examples
+    /// --------
+    /// >>> task = pushplan.Task.load("my-task.yaml")
     #[staticmethod]
     #[pyo3(signature = (path, tools = None))]
-    fn load(py: Python<'_>, path: PathBuf, tools: Option<&PyToolLibrary>) -> PyResult<Self> {
+    fn load(
+        py: Python<'_>,
+        path: PathBuf,
+        #[pyo3(from_py_with = wanted::tools)] tools: Option<Py<PyToolLibrary>>,
+    ) -> PyResult<Self> {
         let task = match tools {
-            Some(tools) => load_task(&path, &tools.0),
+            Some(tools) => load_task(&path, &tools.get().0),
             None => Task::load(&path),
         };
         let task = task.map_err(|faults| errors::files(py, &faults, None))?;
@@ -67,6 +89,11 @@ impl PyTask {
     /// tools : ToolLibrary, optional
     ///     Tools to check the names of the task against; by default names are not checked.
     ///
+    /// Returns
+    /// -------
+    /// Task
+    ///     Shipped task.
+    ///
     /// Raises
     /// ------
     /// FileError
@@ -77,9 +104,13 @@ impl PyTask {
     /// >>> task = pushplan.Task.example("pull-back-behind-wall")
     #[staticmethod]
     #[pyo3(signature = (name, tools = None))]
-    fn example(py: Python<'_>, name: &str, tools: Option<&PyToolLibrary>) -> PyResult<Self> {
+    fn example(
+        py: Python<'_>,
+        name: &str,
+        #[pyo3(from_py_with = wanted::tools)] tools: Option<Py<PyToolLibrary>>,
+    ) -> PyResult<Self> {
         let task = match tools {
-            Some(tools) => load_example(name, &tools.0),
+            Some(tools) => load_example(name, &tools.get().0),
             None => Task::example(name),
         };
         let task = task.map_err(|faults| errors::files(py, &faults, None))?;
@@ -101,6 +132,11 @@ impl PyTask {
     /// name : str, default "task"
     ///     File name in error messages; also the name of a task that states none.
     ///
+    /// Returns
+    /// -------
+    /// Task
+    ///     Task of the text.
+    ///
     /// Raises
     /// ------
     /// FileError
@@ -120,12 +156,21 @@ impl PyTask {
     ///     Mapping with lengths in metres, masses in kilograms and angles in degrees. NumPy arrays
     ///     count as lists.
     ///
+    /// Returns
+    /// -------
+    /// Task
+    ///     Task of the mapping.
+    ///
     /// Raises
     /// ------
     /// FileError
     ///     If a value is invalid; it lists all faults with their keys.
     /// TypeError
     ///     If the mapping contains other types than a file.
+    ///
+    /// Examples
+    /// --------
+    /// >>> stricter = pushplan.Task.from_dict({**task.to_dict(), "robustness": 0.9})
     #[staticmethod]
     fn from_dict(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         let task = Text::of(mapping)?.read(py, "task", Task::parse)?;
@@ -249,12 +294,23 @@ impl PyTask {
     /// poses : array_like, `[objects, 3]`
     ///     Poses of the objects: x and y in metres, heading in radians.
     ///
+    /// Returns
+    /// -------
+    /// Task
+    ///     Task with these poses.
+    ///
     /// Raises
     /// ------
-    /// ValueError
-    ///     If the array has another shape or a number is not finite.
-    fn at(&self, poses: Numbers<'_>) -> PyResult<Self> {
-        let poses = self.poses(&poses)?;
+    /// TypeError or ValueError
+    ///     If the array has another type or shape, a number is not finite, an object is more than
+    ///     2 m beyond the reach, or a heading is beyond 8 pi.
+    ///
+    /// Examples
+    /// --------
+    /// >>> seen = task.start + [0.01, 0.0, 0.1]
+    /// >>> solution = pushplan.solve(task.at(seen), effort="draft")
+    fn at(&self, poses: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let poses = self.poses(poses)?;
         Ok(Self { task: Arc::new(moved(&self.task, &poses)), source: self.source.clone() })
     }
 
@@ -264,8 +320,8 @@ impl PyTask {
     /// ----------
     /// poses : array_like, `[objects, 3]`
     ///     Poses of the objects at rest: x and y in metres, heading in radians.
-    fn score(&self, poses: Numbers<'_>) -> PyResult<f64> {
-        Ok(self.task.score(&State::at_rest(self.poses(&poses)?)))
+    fn score(&self, poses: &Bound<'_, PyAny>) -> PyResult<f64> {
+        Ok(self.task.score(&State::at_rest(self.poses(poses)?)))
     }
 
     /// Returns for each goal whether the objects reach it at these poses, at rest.
@@ -274,8 +330,8 @@ impl PyTask {
     /// ----------
     /// poses : array_like, `[objects, 3]`
     ///     Poses of the objects: x and y in metres, heading in radians.
-    fn reached(&self, poses: Numbers<'_>) -> PyResult<Vec<bool>> {
-        let state = State::at_rest(self.poses(&poses)?);
+    fn reached(&self, poses: &Bound<'_, PyAny>) -> PyResult<Vec<bool>> {
+        let state = State::at_rest(self.poses(poses)?);
         Ok(self.task.goals.iter().map(|goal| goal.reached(&state)).collect())
     }
 
@@ -287,8 +343,8 @@ impl PyTask {
     /// ----------
     /// poses : array_like, `[objects, 3]`
     ///     Poses of the objects at rest: x and y in metres, heading in radians.
-    fn goal_subjects(&self, poses: Numbers<'_>) -> PyResult<Vec<&str>> {
-        let state = State::at_rest(self.poses(&poses)?);
+    fn goal_subjects(&self, poses: &Bound<'_, PyAny>) -> PyResult<Vec<&str>> {
+        let state = State::at_rest(self.poses(poses)?);
         let subjects = self.task.goals.iter().map(|goal| goal.subject(&state));
         Ok(subjects.map(|k| self.task.scene.objects[k].name.as_str()).collect())
     }
@@ -308,9 +364,9 @@ impl PyTask {
     fn goal_offsets<'py>(
         &self,
         py: Python<'py>,
-        poses: Numbers<'_>,
+        poses: &Bound<'_, PyAny>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let state = State::at_rest(self.poses(&poses)?);
+        let state = State::at_rest(self.poses(poses)?);
         let offsets = self.task.goals.iter().flat_map(|goal| {
             let (off, turn) = (goal.off(&state), goal.turned(&state).unwrap_or(0.0));
             [off.x, off.y, turn]
@@ -338,39 +394,5 @@ impl PyTask {
 
     fn __repr__(&self) -> String {
         format!("<Task {}>", self.task.name)
-    }
-}
-
-impl PyTask {
-    /// Returns the source of the task for a command line.
-    pub fn source(&self) -> TaskSource {
-        let unread = || TaskSource::File(format!("{}.yaml", self.task.name));
-        self.source.clone().unwrap_or_else(unread)
-    }
-
-    /// Converts an array to the poses of the task's objects.
-    fn poses(&self, poses: &Numbers<'_>) -> PyResult<Vec<Pose>> {
-        let (poses, objects) = (poses.as_array(), self.task.scene.things().count());
-        arrays::finite("poses", &poses)?;
-        if *poses.shape() != [objects, 3] {
-            let message =
-                format!("`poses` must have the shape [{objects}, 3], found {:?}", poses.shape());
-            return Err(PyValueError::new_err(message));
-        }
-        Ok(self.task.scene.with_parts(arrays::state(poses).poses))
-    }
-
-    /// Returns the task, with its robustness replaced if one is given.
-    pub fn robust(&self, robustness: Option<f64>) -> PyResult<Arc<Task>> {
-        match robustness {
-            None => Ok(Arc::clone(&self.task)),
-            Some(share) if (0.0..=1.0).contains(&share) => {
-                Ok(Arc::new(Task::clone(&self.task).robust(share)))
-            }
-            Some(found) => {
-                let message = format!("`robustness` must be a share from 0 to 1, found {found}");
-                Err(PyValueError::new_err(message))
-            }
-        }
     }
 }

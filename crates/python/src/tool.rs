@@ -5,13 +5,15 @@ use std::sync::Arc;
 
 use pushplan::files::Faults;
 use pushplan::{Tool, ToolLibrary};
-use pyo3::exceptions::{PyKeyError, PyTypeError};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
-use crate::errors;
+use crate::arguments::found;
 use crate::json::{dict, unpickled};
 use crate::mapping::Text;
+use crate::wanted::no_constructor;
+use crate::{errors, wanted};
 
 /// Rigid tool of upright solids, which the end effector holds at its grip.
 ///
@@ -23,6 +25,16 @@ pub struct PyTool(pub Arc<Tool>);
 
 #[pymethods]
 impl PyTool {
+    #[new]
+    #[pyo3(signature = (*_arguments, **_named))]
+    fn new(_arguments: &Bound<'_, PyAny>, _named: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        Err(no_constructor(
+            "Tool",
+            "read a file with `Tool.load(path)`, take one from `ToolLibrary.shipped()[name]`, or \
+             build one with `Tool.from_dict(mapping)`",
+        ))
+    }
+
     /// Reads a tool file (YAML).
     ///
     /// Parameters
@@ -30,10 +42,19 @@ impl PyTool {
     /// path : str or path-like
     ///     Tool file.
     ///
+    /// Returns
+    /// -------
+    /// Tool
+    ///     Tool of the file.
+    ///
     /// Raises
     /// ------
     /// FileError
     ///     If the file is unreadable or invalid; it lists all faults.
+    ///
+    /// Examples
+    /// --------
+    /// >>> tool = pushplan.Tool.load("my-hook.yaml")
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         read(py, Tool::load(path))
@@ -48,10 +69,20 @@ impl PyTool {
     /// name : str, default "tool"
     ///     File name in error messages.
     ///
+    /// Returns
+    /// -------
+    /// Tool
+    ///     Tool of the text.
+    ///
     /// Raises
     /// ------
     /// FileError
     ///     If the text is invalid; it lists all faults.
+    ///
+    /// Examples
+    /// --------
+    /// >>> part = "{name: bar, size: [0.2, 0.04, 0.05], position: [0.1, 0]}"
+    /// >>> tool = pushplan.Tool.parse(f"{{name: rod, friction: 0.4, parts: [{part}]}}")
     #[staticmethod]
     #[pyo3(signature = (text, name = "tool"))]
     fn parse(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
@@ -65,6 +96,11 @@ impl PyTool {
     /// mapping : pushplan.files.ToolFile
     ///     Mapping with lengths in metres and angles in degrees. NumPy arrays count as lists.
     ///
+    /// Returns
+    /// -------
+    /// Tool
+    ///     Tool of the mapping.
+    ///
     /// Raises
     /// ------
     /// FileError
@@ -75,7 +111,7 @@ impl PyTool {
     /// Examples
     /// --------
     /// >>> bar = {"name": "bar", "size": [0.2, 0.04, 0.05], "position": [0.1, 0]}
-    /// >>> tool = pushplan.Tool.from_dict({"name": "short-stick", "parts": [bar]})
+    /// >>> tool = pushplan.Tool.from_dict({"name": "rod", "friction": 0.4, "parts": [bar]})
     #[staticmethod]
     fn from_dict(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(Self(Arc::new(Text::of(mapping)?.read(py, "tool", Tool::parse)?)))
@@ -107,6 +143,11 @@ impl PyTool {
     }
 
     /// Returns the tool with the keys of a tool file, for `Tool.from_dict`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> copy = {**tool.to_dict(), "name": "smooth-hook", "friction": 0.2}
+    /// >>> tools = pushplan.ToolLibrary.shipped().with_tool(pushplan.Tool.from_dict(copy))
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         dict(py, &self.0.to_json())
     }
@@ -133,7 +174,20 @@ pub struct PyToolLibrary(pub ToolLibrary);
 
 #[pymethods]
 impl PyToolLibrary {
+    #[new]
+    #[pyo3(signature = (*_arguments, **_named))]
+    fn new(_arguments: &Bound<'_, PyAny>, _named: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        Err(no_constructor(
+            "ToolLibrary",
+            "use `ToolLibrary.shipped()`, `ToolLibrary.load(folder)` or `ToolLibrary.of(tools)`",
+        ))
+    }
+
     /// Returns the tools shipped with the package.
+    ///
+    /// Examples
+    /// --------
+    /// >>> hook = pushplan.ToolLibrary.shipped()["hook"]
     #[staticmethod]
     fn shipped(py: Python<'_>) -> PyResult<Self> {
         library(py, ToolLibrary::embedded())
@@ -141,10 +195,24 @@ impl PyToolLibrary {
 
     /// Reads every tool file (`.yaml`, `.yml`) of a folder.
     ///
+    /// Parameters
+    /// ----------
+    /// folder : str or path-like
+    ///     Folder with one file or more.
+    ///
+    /// Returns
+    /// -------
+    /// ToolLibrary
+    ///     Tools of the folder.
+    ///
     /// Raises
     /// ------
     /// FileError
     ///     If a file is unreadable or invalid; it lists all faults of all files.
+    ///
+    /// Examples
+    /// --------
+    /// >>> tools = pushplan.ToolLibrary.load("my-tools")
     #[staticmethod]
     fn load(py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
         library(py, ToolLibrary::load(folder))
@@ -152,50 +220,95 @@ impl PyToolLibrary {
 
     /// Returns a library of the given tools.
     ///
-    /// Raises
-    /// ------
-    /// FileError
-    ///     If two tools have the same name.
-    #[staticmethod]
-    fn of(py: Python<'_>, tools: Vec<Py<PyTool>>) -> PyResult<Self> {
-        let add = |library: ToolLibrary, tool: &Py<PyTool>| library.with(tool.get().0.clone());
-        library(py, tools.iter().try_fold(ToolLibrary::default(), add))
-    }
-
-    /// Returns a library with one more tool.
+    /// Parameters
+    /// ----------
+    /// tools : sequence of Tool
+    ///     Tools with different names.
+    ///
+    /// Returns
+    /// -------
+    /// ToolLibrary
+    ///     Library of these tools only.
     ///
     /// Raises
     /// ------
     /// FileError
-    ///     If the library already has a tool of this name.
-    fn with_tool(&self, py: Python<'_>, tool: &PyTool) -> PyResult<Self> {
-        library(py, self.0.clone().with(tool.0.clone()))
+    ///     If two tools have the same name.
+    ///
+    /// Examples
+    /// --------
+    /// >>> shipped = pushplan.ToolLibrary.shipped()
+    /// >>> few = pushplan.ToolLibrary.of([shipped["hook"], shipped["stick"]])
+    #[staticmethod]
+    fn of(
+        py: Python<'_>,
+        #[pyo3(from_py_with = wanted::list_of_tools)] tools: Vec<Py<PyTool>>,
+    ) -> PyResult<Self> {
+        let add = |library: ToolLibrary, tool: &Py<PyTool>| library.with(tool.get().0.clone());
+        library(py, tools.iter().try_fold(ToolLibrary::default(), add))
+    }
+
+    /// Returns a library that also contains a tool, in place of a tool of the same name.
+    ///
+    /// Parameters
+    /// ----------
+    /// tool : Tool
+    ///     Tool to add.
+    ///
+    /// Returns
+    /// -------
+    /// ToolLibrary
+    ///     New library; this one does not change.
+    ///
+    /// Examples
+    /// --------
+    /// >>> tools = pushplan.ToolLibrary.shipped().with_tool(tool)
+    /// >>> solution = pushplan.solve(task, tools, effort="draft")
+    fn with_tool(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = wanted::tool)] tool: Py<PyTool>,
+    ) -> PyResult<Self> {
+        let tool = &tool.get().0;
+        let others = self.all().filter(|other| other.name != tool.name);
+        let add = |library: ToolLibrary, tool: &Arc<Tool>| library.with(Arc::clone(tool));
+        library(py, others.chain([tool]).try_fold(ToolLibrary::default(), add))
     }
 
     /// Returns a library that also contains the tools of a folder, in place of tools of the same
     /// names.
     ///
+    /// Parameters
+    /// ----------
+    /// folder : str or path-like
+    ///     Folder with one tool file or more.
+    ///
+    /// Returns
+    /// -------
+    /// ToolLibrary
+    ///     New library; this one does not change.
+    ///
     /// Raises
     /// ------
     /// FileError
     ///     If a file is invalid, or two files have a tool of the same name.
+    ///
+    /// Examples
+    /// --------
+    /// >>> tools = pushplan.ToolLibrary.shipped().with_folder("my-tools")
     fn with_folder(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
         library(py, self.0.clone().with_folder(folder))
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let of = py.import("pushplan")?.getattr("ToolLibrary")?.getattr("of")?;
-        let all = self.0.iter().chain(self.0.blades());
-        let tools = all.map(|tool| Py::new(py, PyTool(Arc::clone(tool))));
+        let tools = self.all().map(|tool| Py::new(py, PyTool(Arc::clone(tool))));
         let tools: Vec<Py<PyTool>> = tools.collect::<PyResult<_>>()?;
         Ok((of, (tools,)).into_pyobject(py)?.into_any())
     }
 
     fn __eq__(&self, other: &Self) -> bool {
-        let all = |library: &Self| -> Vec<Arc<Tool>> {
-            library.0.iter().chain(library.0.blades()).cloned().collect()
-        };
-        all(self) == all(other)
+        self.all().eq(other.all())
     }
 
     /// Names of all tools, sorted.
@@ -204,9 +317,9 @@ impl PyToolLibrary {
         self.0.iter().map(|tool| tool.name.as_str()).collect()
     }
 
-    fn __getitem__(&self, name: &str) -> PyResult<PyTool> {
+    fn __getitem__(&self, py: Python<'_>, name: &str) -> PyResult<PyTool> {
         let found = self.0.get(name).cloned().map(PyTool);
-        found.ok_or_else(|| PyKeyError::new_err(unknown(name, &self.0)))
+        found.ok_or_else(|| errors::unknown_tool(py, &unknown(name, &self.0)))
     }
 
     fn __contains__(&self, name: &str) -> bool {
@@ -219,6 +332,13 @@ impl PyToolLibrary {
 
     fn __repr__(&self) -> String {
         format!("<ToolLibrary {}>", self.names().join(", "))
+    }
+}
+
+impl PyToolLibrary {
+    /// Iterates over all tools, tools with a blade last.
+    fn all(&self) -> impl Iterator<Item = &Arc<Tool>> {
+        self.0.iter().chain(self.0.blades())
     }
 }
 
@@ -244,14 +364,18 @@ pub fn tool(
         return Ok(tool.get().0.clone());
     }
     let Ok(name) = tool.extract::<String>() else {
-        return Err(PyTypeError::new_err("`tool` must be a `Tool` or the name of one"));
+        return Err(PyTypeError::new_err(format!(
+            "`tool` must be a `pushplan.Tool` or the name of one, found {}; build one with \
+             `pushplan.Tool.from_dict`",
+            found(tool)
+        )));
     };
     let library = given(py, tools)?;
     let found = library.get(&name).cloned();
-    found.ok_or_else(|| errors::action(py, &unknown(&name, &library)))
+    found.ok_or_else(|| errors::unknown_tool(py, &unknown(&name, &library)))
 }
 
 fn unknown(name: &str, library: &ToolLibrary) -> String {
     let names: Vec<&str> = library.iter().map(|tool| tool.name.as_str()).collect();
-    format!("no tool is called `{name}`; there are {}", names.join(", "))
+    format!("no tool is called `{name}`; use one of {}", names.join(", "))
 }

@@ -6,12 +6,14 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use pushplan::progress::{Cancel, Progress};
+use pushplan::progress::Progress;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// Interval between checks for Python signals.
+use crate::progress::{Observer, Watch};
+
+/// Interval between checks for Python signals and reports of progress.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// Thread pools of a process by their number of threads; 0 stands for one per core.
@@ -26,28 +28,39 @@ static POOLS: Mutex<Option<(u32, Pools)>> = Mutex::new(None);
 pub fn run<T: Send>(
     py: Python<'_>,
     threads: usize,
-    work: impl FnOnce(&Cancel) -> T + Send,
+    work: impl FnOnce(&Watch) -> T + Send,
+) -> PyResult<T> {
+    follow(py, threads, &Observer::default(), work)
+}
+
+/// Runs `work` like [`run`], and reports its progress to `observer`. An exception of the observer
+/// also cancels the work.
+pub fn follow<T: Send>(
+    py: Python<'_>,
+    threads: usize,
+    observer: &Observer,
+    work: impl FnOnce(&Watch) -> T + Send,
 ) -> PyResult<T> {
     let pool = pool(threads)?;
-    let done = py.detach(|| watched(&pool, work));
-    match done {
-        Ok(done) => done,
-        Err(panic) => resume_unwind(panic),
-    }
+    let watch = Watch::default();
+    let done = py.detach(|| watched(&pool, &watch, observer, work));
+    let done = done.unwrap_or_else(|panic| resume_unwind(panic));
+    let ended = observer.end(py, done.is_ok().then_some(&watch));
+    done.and_then(|done| ended.map(|()| done))
 }
 
 type Caught<T> = Result<T, Box<dyn std::any::Any + Send>>;
 
 fn watched<T: Send>(
     pool: &ThreadPool,
-    work: impl FnOnce(&Cancel) -> T + Send,
+    watch: &Watch,
+    observer: &Observer,
+    work: impl FnOnce(&Watch) -> T + Send,
 ) -> Caught<PyResult<T>> {
-    let cancel = Cancel::default();
     let (sender, receiver) = channel();
     std::thread::scope(|scope| {
-        let own = cancel.clone();
         scope.spawn(move || {
-            let done = catch_unwind(AssertUnwindSafe(|| pool.install(|| work(&own))));
+            let done = catch_unwind(AssertUnwindSafe(|| pool.install(|| work(watch))));
             // The receiver outlives this thread.
             let _ = sender.send(done);
         });
@@ -60,11 +73,15 @@ fn watched<T: Send>(
                         "the worker thread ended without a result; please report this as a bug",
                     )));
                 }
-                Err(RecvTimeoutError::Timeout) if cancel.cancelled() => {}
+                Err(RecvTimeoutError::Timeout) if watch.cancelled() => {}
                 Err(RecvTimeoutError::Timeout) => {
-                    if let Err(signal) = Python::attach(|py| py.check_signals()) {
-                        cancel.cancel();
-                        stopped = Some(signal);
+                    let looked = Python::attach(|py| {
+                        py.check_signals()?;
+                        observer.look(py, watch)
+                    });
+                    if let Err(error) = looked {
+                        watch.cancel();
+                        stopped = Some(error);
                     }
                 }
             }

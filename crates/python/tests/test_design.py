@@ -54,6 +54,6 @@ def test_a_time_limit_returns_the_best_so_far(tmp_path: Any) -> None:
 
 
 def test_numbers_out_of_range_are_reported(task: pushplan.Task) -> None:
-    for parts, candidates in [(0, 1000), (99, 1000), (3, 0)]:
-        with pytest.raises(ValueError, match="candidates"):
+    for parts, candidates, name in [(0, 1000, "parts"), (99, 1000, "parts"), (3, 0, "candidates")]:
+        with pytest.raises(ValueError, match=f"`{name}` must be a whole number from 1"):
             pushplan.design(task, parts=parts, candidates=candidates)

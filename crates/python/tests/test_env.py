@@ -28,7 +28,9 @@ def test_a_good_push_reaches_the_goal(task: pushplan.Task) -> None:
     env.reset(seed=0)
     action = env.action("l-hook", math.pi, offset=0.0, length=0.165)
     seen, reward, reached, truncated, info = env.step(action)
-    assert reached and not truncated and info == {"score": info["score"], "refused": None}
+    assert reached and not truncated and info["refused"] is None
+    [push] = info["plan"].pushes
+    assert info["plan"].tool.name == "l-hook" and push.length == pytest.approx(0.165)
     assert info["score"] < 1.0 and reward > 1.5
     assert np.linalg.norm(seen[-2:]) < task.tolerance
     assert env.render().startswith("<!DOCTYPE html>")
@@ -49,14 +51,49 @@ def test_its_physics_are_those_of_predict(task: pushplan.Task) -> None:
     assert np.allclose(env.poses, pushplan.predict(plan, "prior").poses[-1], atol=1e-4)
 
 
-def test_a_push_that_cannot_be_made_moves_nothing(task: pushplan.Task) -> None:
-    env = pushplan.env.PushEnv(task, pushes=2)
+@pytest.mark.parametrize("name", ["pull-back", "pull-back-behind-wall", "crowd", "turn-the-box"])
+def test_random_actions_move_something(name: str) -> None:
+    env = pushplan.env.PushEnv(pushplan.Task.example(name))
+    env.reset(seed=0)
+    env.action_space.seed(0)
+    refused = 0
+    for _ in range(60):
+        _, _, terminated, truncated, info = env.step(env.action_space.sample())
+        refused += info["refused"] is not None
+        assert (info["plan"] is None) == (info["refused"] is not None)
+        if info["plan"] is not None:
+            # The executed push violates no rule of the task.
+            assert info["plan"].violations == []
+        if terminated or truncated:
+            env.reset()
+    assert refused <= 6
+
+
+def test_the_nearest_allowed_push_replaces_a_forbidden_one(task: pushplan.Task) -> None:
+    env = pushplan.env.PushEnv(task)
+    env.reset()
+    # The arm cannot reach that far.
+    _, _, _, _, info = env.step(env.action("l-hook", math.pi, length=0.1))
+    assert info["plan"].pushes[0].direction == pytest.approx(math.pi)
     env.reset()
     # Away from the robot, the wall obstructs the push.
-    for last in (False, True):
-        _, reward, reached, truncated, info = env.step(env.action("stick", 0.0))
-        assert info["refused"] and (env.poses == task.start).all()
-        assert reward == -pushplan.env.COST and not reached and truncated == last
+    _, _, _, _, info = env.step(env.action("stick", 0.0))
+    [push] = info["plan"].pushes
+    assert info["refused"] is None and info["plan"].violations == []
+    assert push.direction != 0.0 or push.length < task.push_length
+
+
+def test_a_push_that_cannot_be_made_moves_nothing(task: pushplan.Task) -> None:
+    keys = task.to_dict()
+    # The hand can be only at a distance at which no tool is at the can.
+    keys["robot"]["reach"] = {"min": 0.3, "max": 0.31}
+    task = pushplan.Task.from_dict(keys)
+    env = pushplan.env.PushEnv(task, pushes=2)
+    env.reset()
+    for _ in range(2):
+        _, reward, terminated, truncated, info = env.step(env.action("stick", 0.0))
+        assert info["refused"] and info["plan"] is None and (env.poses == task.start).all()
+        assert reward == -pushplan.env.COST and terminated and not truncated
 
 
 def test_seeds_shift_starts_alike(root: Path) -> None:
@@ -105,6 +142,10 @@ def test_goals_are_drawn_and_pictures_show_what_moved(task: pushplan.Task) -> No
     assert before.shape == (256, 256, 3) and before.dtype == np.uint8
     env.step(env.action("l-hook", math.pi, length=0.1))
     after = env.render()
+    # Column of the robot, and tool at the end of the push.
+    base, tool = np.array([50, 60, 80]), np.array([70, 120, 200])
+    assert (before == base).all(axis=2).any() and not (before == tool).all(axis=2).any()
+    assert (after == base).all(axis=2).any() and (after == tool).all(axis=2).any()
     # Seen from behind the robot: x is up, and the can was pulled down.
     wanted = np.array([205, 85, 60])
     rows = [np.nonzero((picture == wanted).all(axis=2))[0].mean() for picture in (before, after)]

@@ -131,8 +131,13 @@ def test_a_tool_of_ones_own_is_chosen_from() -> None:
     library = pushplan.ToolLibrary.shipped().with_tool(tool)
     assert "long-hook" in library and library["long-hook"] == tool
     assert len(library) == len(pushplan.ToolLibrary.shipped()) + 1
+    # A tool replaces one of the same name, also a shipped one.
+    smooth = pushplan.Tool.from_dict({**tool.to_dict(), "name": "stick", "friction": 0.1})
+    replaced = library.with_tool(smooth)
+    assert replaced["stick"] == smooth != library["stick"] and replaced.names == library.names
+    assert replaced["screwdriver"] == library["screwdriver"]
     with pytest.raises(pushplan.FileError, match="already has a tool of this name"):
-        library.with_tool(tool)
+        pushplan.ToolLibrary.of([tool, tool])
     with pytest.raises(KeyError, match="no tool is called `spoon`"):
         library["spoon"]
     with pytest.raises(pushplan.FileError, match="separate pieces"):

@@ -26,6 +26,17 @@ def test_package_tests_and_examples_are_typed(root: Path) -> None:
     checked("mypy", "--explicit-package-bases", *sources[2:], cwd=root)
 
 
+def test_the_readme_and_the_examples_have_no_type_errors(root: Path, tmp_path: Path) -> None:
+    blocks = (root / "README.md").read_text().split("```python\n")[1:]
+    assert blocks
+    for k, block in enumerate(blocks):
+        (tmp_path / f"readme_{k}.py").write_text(block.split("```")[0])
+    readme = sorted(map(str, tmp_path.glob("*.py")))
+    checked("mypy", "--strict", *readme, cwd=tmp_path)
+    sources = ["examples", "crates/python/pushplan/_native.pyi", *readme]
+    checked("pyright", "--pythonpath", sys.executable, "--warnings", *sources, cwd=root)
+
+
 def test_everything_public_has_a_docstring() -> None:
     undocumented = [
         name
