@@ -33,6 +33,7 @@ fn shards_of_a_benchmark_merge_to_the_bytes_of_one_run() {
     let output = run(&["bench", "merge", &merged, &second, &first, "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(compared(Path::new(&merged)), compared(Path::new(&whole)));
+    assert_eq!(without_times(Path::new(&merged)), without_times(Path::new(&whole)));
 
     let timeless = |text: &[u8]| {
         let mut json: Json = serde_json::from_slice(text).expect("JSON alone");
@@ -115,6 +116,44 @@ fn tasks_that_ask_for_no_place_are_kept() {
 fn compared(dir: &Path) -> [String; 2] {
     ["manifest.json", "records.jsonl"]
         .map(|name| fs::read_to_string(dir.join(name)).expect("a file of the run"))
+}
+
+/// Returns the files that differ between runs, with their times blanked: the numbers of
+/// `times.jsonl`, the columns of `tasks.csv` that end with `_s`, and the column `time` of
+/// `report.html`.
+fn without_times(dir: &Path) -> [String; 3] {
+    let text = |name: &str| fs::read_to_string(dir.join(name)).expect("a file of the run");
+    let times = text("times.jsonl");
+    let times = times.lines().map(|line| {
+        let mut line: Json = serde_json::from_str(line).expect("JSON");
+        let seconds = line["seconds"].as_object_mut().expect("times");
+        assert_eq!(seconds.len(), 4, "{seconds:?}");
+        seconds.values_mut().for_each(|time| *time = Json::Null);
+        format!("{line}\n")
+    });
+    let rows = text("tasks.csv");
+    let header: Vec<&str> = rows.lines().next().expect("a header").split(',').collect();
+    let timed: Vec<bool> = header.iter().map(|name| name.ends_with("_s")).collect();
+    assert_eq!(timed.iter().filter(|timed| **timed).count(), 4, "{header:?}");
+    let rows = rows.lines().skip(1).map(|line| {
+        let cells: Vec<&str> = line.split(',').collect();
+        assert_eq!(cells.len(), header.len(), "{line}");
+        let kept = cells.iter().zip(&timed).filter(|(_, timed)| !**timed);
+        kept.map(|(cell, _)| format!("{cell},")).collect::<String>() + "\n"
+    });
+    let page = text("report.html");
+    let last = |row: &str| {
+        let (cells, time) = row.rsplit_once("<td class=\"n\">").expect("cells");
+        assert!(["s", "ms", "\u{b5}s"].iter().any(|unit| time.ends_with(unit)), "{time}");
+        format!("{cells}</td></tr>")
+    };
+    // The first table of the page has a row per task, and the column `time` is its last one.
+    let (table, rest) = page.split_once("</table>").expect("a table");
+    let page = table.split("</td></tr>").map(|row| match row.contains("<td>") {
+        true => last(row),
+        false => row.to_owned(),
+    });
+    [times.collect(), header.join(",") + &rows.collect::<String>(), page.collect::<String>() + rest]
 }
 
 /// Returns the output of the benchmark of some tasks, without the network.

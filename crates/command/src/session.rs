@@ -41,6 +41,9 @@ const COUNTED: &str = "{spinner} {prefix}, {elapsed} {msg}, {pos}/{len}";
 /// not notice a delay below a tenth of a second.
 const SHOW_AFTER: Duration = Duration::from_millis(50);
 
+/// Interval in which shown progress is drawn again.
+const TICK: Duration = Duration::from_millis(200);
+
 /// Session of one command, with its thread pool.
 #[derive(Debug)]
 pub struct Session {
@@ -141,8 +144,10 @@ impl Session {
             return ProgressBar::hidden();
         }
         let bar = ProgressBar::new(0);
-        bar.set_style(style("{prefix} [{bar:30}] {pos}/{len}, {per_sec}, {eta} left {msg}"));
+        bar.set_style(style("{prefix} [{bar:30}] {pos}/{len}, {elapsed}, {eta} left {msg}"));
         bar.set_prefix(what.to_owned());
+        // The bar is alive before the first unit is finished.
+        bar.enable_steady_tick(TICK);
         bar
     }
 
@@ -167,7 +172,7 @@ impl Session {
                 std::thread::sleep(SHOW_AFTER);
                 if !later.is_finished() {
                     later.set_draw_target(ProgressDrawTarget::stderr());
-                    later.enable_steady_tick(Duration::from_millis(200));
+                    later.enable_steady_tick(TICK);
                 }
             });
         }
