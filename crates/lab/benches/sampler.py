@@ -39,7 +39,7 @@ at 0.25 ms. Prints Markdown.
 """
 
 TASKS = ["pull-back", "narrow-gap", "wide-sweep", "diagonal", "turn-the-box"]
-FIRST, AROUND, NEXT, GROUP = 500, 8, 96, 48
+FIRST, AROUND, NEXT, GROUP = 500, 8, 96, 24
 STEP, EXACT = 4e-3, 2.5e-4
 # Steps of one call, 2 cm of a push, and steps to rest, four times the longest glide.
 CALL, REST = 50, 30
@@ -68,9 +68,16 @@ class Scene:
         self.task = task
         spec = mujoco.MjSpec.from_string(plan.to_mjcf())
         # The export's feet model the friction of a whole base; MuJoCo's own contacts are cheaper.
+        frictions, standing = {}, set()
         for pair in list(spec.pairs):
-            if "/foot-" in pair.geomname1 + pair.geomname2:
+            name, _, foot = pair.geomname1.partition("/foot-")
+            if foot:
+                frictions[name] = pair.friction.copy()
                 spec.delete(pair)
+            elif pair.geomname2 == "table":
+                standing.add(name)
+        for name in set(frictions) - standing:
+            spec.add_pair(geomname1=name, geomname2="table", condim=3, friction=frictions[name])
         for geom in list(spec.geoms):
             if "/foot-" in geom.name:
                 spec.delete(geom)
@@ -83,6 +90,7 @@ class Scene:
         model.pair_solreffriction[:] = 0.0
         self.data = mujoco.MjData(model)
         self.start = np.empty(mujoco.mj_stateSize(model, STATE))
+        mujoco.mj_forward(model, self.data)
         mujoco.mj_getState(model, self.data, self.start, STATE)
         joints = [model.joint("tool x"), model.joint("tool y")]
         self.places = [1 + joint.qposadr[0] for joint in joints]
@@ -93,6 +101,18 @@ class Scene:
         free = model.jnt_type == mujoco.mjtJoint.mjJNT_FREE
         self.objects = [1 + place for place in model.jnt_qposadr[free]]
         self.perturbed = None
+        tool = np.flatnonzero(model.geom_bodyid == model.body("tool").id)
+        corners = np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]])
+        turned = self.data.geom_xmat[tool].reshape(-1, 3, 3)[:, :2, :2]
+        self.corners = model.geom_pos[tool, None, :2] + np.einsum(
+            "gij,gkj->gki", turned, corners * model.geom_size[tool, None, :2]
+        )
+
+    def outline(self, push):
+        """Returns a key of the tool's corners at the start of a push, the same for grips that turn
+        a tool into itself."""
+        corners = (self.corners + push[:2] + self.shift).reshape(-1, 2).round(4) + 0.0
+        return tuple(sorted(map(tuple, corners)))
 
     def begin(self, pushes):
         """Returns the states in which pushes begin."""
@@ -109,7 +129,7 @@ class Scene:
         score = away / self.task.tolerance
         if self.task.goal_heading is not None:
             turned = 2.0 * np.arctan2(states[..., self.goal + 6], states[..., self.goal + 3])
-            turned = np.abs(np.remainder(turned - self.task.goal_heading + np.pi, np.tau) - np.pi)
+            turned = np.abs(np.remainder(turned - self.task.goal_heading + np.pi, math.tau) - np.pi)
             score = np.maximum(score, turned / self.task.heading_tolerance)
         return score, away
 
@@ -174,7 +194,7 @@ class Sampler:
 
     def __init__(self, task, seed):
         self.task, self.rng, self.scenes = task, np.random.default_rng(seed), {}
-        self.clock, self.rollouts, self.plan = Clock(), 0, None
+        self.clock, self.rollouts, self.seen, self.plan = Clock(), 0, set(), None
 
     def aligned(self):
         """Returns all candidates that are aligned to faces, promising ones first."""
@@ -197,7 +217,8 @@ class Sampler:
         return found
 
     def placed(self, words):
-        """Returns the longest feasible push of a candidate, `None` if there is none."""
+        """Returns the longest feasible push of a candidate; `None` if there is none, or if another
+        candidate is the same push."""
         tool, yaw, way, offset = words
         for share in (1.0, 0.75, 0.5, 0.25):
             length = share * self.task.push_length
@@ -209,6 +230,10 @@ class Sampler:
             if (tool, yaw) not in self.scenes:
                 self.scenes[tool, yaw] = Scene(self.task, plan)
             [push] = plan.pushes
+            key = round(way, 6), self.scenes[tool, yaw].outline(push.start)
+            if key in self.seen:
+                return None
+            self.seen.add(key)
             return [*push.start, push.direction, push.length, push.speed]
         return None
 

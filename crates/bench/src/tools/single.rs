@@ -1,18 +1,18 @@
 //! Goals of single pushes: end positions of random pushes from random starts in the 2-D engine.
 //!
 //! The cylinder stands anywhere in 3 m^2 in front of the robot (1.5 m deep, 2 m wide). A random
-//! push with a random tool pose is drawn together with the start, until it moves the cylinder by
-//! more than 10 cm. Every goal is therefore within reach of at least one tool pose, and no task is
+//! push with a random tool pose is drawn together with the start, until the tool sweeps over the
+//! start and moves the cylinder by more than 10 cm. Every goal is therefore within reach of at least one tool pose, and no task is
 //! solved without a push. The drawn push is a witness: no method of the benchmark receives it.
 
 use rand::Rng;
 use rayon::prelude::*;
 
 use pushplan::{
-    geometry::Vector,
+    geometry::{Pose, Vector, clearance},
     scene::Engine,
     seeded::generator,
-    task::{Push, PushForm},
+    task::{Push, PushForm, Task},
 };
 
 use super::{
@@ -24,6 +24,10 @@ use super::{
 /// Depth and width of the area of starts, metres.
 const DEPTH: f64 = 1.5;
 const WIDTH: f64 = 2.0;
+
+/// Spacing of the tool positions that are compared with a start, metres; a fraction of the
+/// cylinder's radius.
+const SPACING: f64 = 0.01;
 
 /// Salt that separates these draws from other uses of a seed.
 const SALT: u64 = 0x0051;
@@ -40,8 +44,8 @@ pub(super) fn single_goals(setup: &ReferenceSetup, seed: u64, tasks: usize) -> G
     }
 }
 
-/// Draws starts and pushes until one moves the cylinder far enough. About one push in twenty does,
-/// so the loop ends.
+/// Draws starts and pushes until one moves the cylinder far enough. A few pushes in a hundred sweep
+/// over their start, and most of them do, so the loop ends.
 fn drawn(setup: &ReferenceSetup, seed: u64, index: usize) -> StartGoals {
     let mut random = generator(seed ^ SALT, index as u64);
     loop {
@@ -53,10 +57,11 @@ fn drawn(setup: &ReferenceSetup, seed: u64, index: usize) -> StartGoals {
         let pose = random.random_range(0..setup.poses.len());
         let direction = ways[random.random_range(0..ways.len())];
         let steps = random.random_range(1..=STEPS);
-        if !setup.free_poses(at).contains(&pose) {
+        let length = TRAVEL * steps as f64 / STEPS as f64;
+        let tool = (pose, direction, length - COARSE);
+        if !sweeps(setup, &task, tool) || !setup.free_poses(at).contains(&pose) {
             continue;
         }
-        let length = TRAVEL * steps as f64 / STEPS as f64;
         let push = Push { start: task.robot.home, direction, length, speed: SPEED };
         let action = Action { pose, form: PushForm::Chained, pushes: vec![push] };
         let landing = play(setup, &task, Engine::Planar, &action);
@@ -66,4 +71,25 @@ fn drawn(setup: &ReferenceSetup, seed: u64, index: usize) -> StartGoals {
             return StartGoals { start, goals: vec![goal] };
         }
     }
+}
+
+/// Returns `true` if a tool pose overlaps the cylinder within some travel (metres) from home in a
+/// direction.
+fn sweeps(
+    setup: &ReferenceSetup,
+    task: &Task,
+    (pose, direction, travel): (usize, f64, f64),
+) -> bool {
+    let (tool, cylinder) = (&setup.poses[pose], &task.scene.objects[0]);
+    let still = (&cylinder.shape.footprint(), &cylinder.pose);
+    let way = Vector::new(direction.cos(), direction.sin());
+    let overlaps = |moved: f64| {
+        let position = task.robot.home + way * moved;
+        let frame = tool.pose(Pose { position, heading: 0.0 });
+        (0..tool.parts().len()).any(|k| {
+            let part = tool.parts()[k].footprint();
+            clearance((&part, &tool.part_pose(k, &frame)), still, SPACING) <= 0.0
+        })
+    };
+    travel > 0.0 && (0..=(travel / SPACING) as usize).any(|k| overlaps(k as f64 * SPACING))
 }

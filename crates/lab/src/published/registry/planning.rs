@@ -45,8 +45,8 @@ pub const TABLES: &[Published] = &[
         "pushplan bench tools --layout scattered --tasks all", &[
             ("All tool poses together", CHOICES, ALL),
         ]),
-    table("tool-choice-single", "tool-choice-scattered.md", (10, 100, "tasks"), PLANS,
-        "pushplan bench tools --form single --tasks 100", &[
+    table("tool-choice-single", "tool-choice-scattered.md", (2, 48, "tasks"), PLANS,
+        "pushplan bench tools --form single --tasks 48", &[
             ("All tool poses together", CHOICES, ALL),
             ("Each tool pose alone", &["tool, choice", "3-D", "≤ 5 cm#1", "pushes"],
             &[", oracle", ", planned"]),
