@@ -1,11 +1,12 @@
 //! Shared state of subcommands: output, progress and threads.
 
+use std::fmt;
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use pushplan::asset::printable;
@@ -144,10 +145,9 @@ impl Session {
             return ProgressBar::hidden();
         }
         let bar = ProgressBar::new(0);
-        bar.set_style(style("{prefix} [{bar:30}] {pos}/{len}, {elapsed}, {eta} left {msg}"));
+        let bar_style = style("{prefix} [{bar:30}] {pos}/{len}, {elapsed}{left} {msg}");
+        bar.set_style(bar_style.with_key("left", left));
         bar.set_prefix(what.to_owned());
-        // The bar is alive before the first unit is finished.
-        bar.enable_steady_tick(TICK);
         bar
     }
 
@@ -177,6 +177,23 @@ impl Session {
             });
         }
         bar
+    }
+}
+
+/// Sets the number of units of a bar, which is then drawn regularly, also before the first unit is
+/// finished.
+pub fn size(bar: &ProgressBar, total: u64) {
+    if bar.length() != Some(total) {
+        bar.set_length(total);
+        bar.enable_steady_tick(TICK);
+    }
+}
+
+/// Writes the estimated remaining time, unless no unit is finished yet.
+fn left(state: &ProgressState, out: &mut dyn fmt::Write) {
+    if state.pos() > 0 {
+        // A failure only leaves the time out.
+        let _ = write!(out, ", {:#} left", HumanDuration(state.eta()));
     }
 }
 
