@@ -119,8 +119,8 @@ fn compared(dir: &Path) -> [String; 2] {
 }
 
 /// Returns the files that differ between runs, with their times blanked: the numbers of
-/// `times.jsonl`, the columns of `tasks.csv` that end with `_s`, and the column `time` of
-/// `report.html`.
+/// `times.jsonl`, the columns of `tasks.csv` that end with `_s`, and these and the column `time`
+/// in the tables of `report.html`.
 fn without_times(dir: &Path) -> [String; 3] {
     let text = |name: &str| fs::read_to_string(dir.join(name)).expect("a file of the run");
     let times = text("times.jsonl");
@@ -142,18 +142,31 @@ fn without_times(dir: &Path) -> [String; 3] {
         kept.map(|(cell, _)| format!("{cell},")).collect::<String>() + "\n"
     });
     let page = text("report.html");
-    let last = |row: &str| {
-        let (cells, time) = row.rsplit_once("<td class=\"n\">").expect("cells");
-        assert!(["s", "ms", "\u{b5}s"].iter().any(|unit| time.ends_with(unit)), "{time}");
-        format!("{cells}</td></tr>")
-    };
-    // The first table of the page has a row per task, and the column `time` is its last one.
-    let (table, rest) = page.split_once("</table>").expect("a table");
-    let page = table.split("</td></tr>").map(|row| match row.contains("<td>") {
-        true => last(row),
-        false => row.to_owned(),
+    let page = page.split("<table>").map(|part| match part.split_once("</table>") {
+        Some((table, rest)) => table_without_times(table) + rest,
+        None => part.to_owned(),
     });
-    [times.collect(), header.join(",") + &rows.collect::<String>(), page.collect::<String>() + rest]
+    [times.collect(), header.join(",") + &rows.collect::<String>(), page.collect()]
+}
+
+/// Returns a table of a page without the cells of its columns of times.
+fn table_without_times(table: &str) -> String {
+    let mut timed = Vec::new();
+    let row = |row: &str| {
+        if row.contains("</th>") {
+            let name = |cell: &str| cell.rsplit('>').next().unwrap_or_default().to_owned();
+            let names: Vec<String> = row.split("</th>").map(name).collect();
+            timed = names.iter().map(|name| name == "time" || name.ends_with("_s")).collect();
+            assert!(timed.contains(&true), "{row}");
+            return row.to_owned();
+        }
+        let cells = row.split("</td>").enumerate();
+        cells
+            .filter(|(column, _)| timed.get(*column) != Some(&true))
+            .map(|(_, cell)| cell)
+            .collect()
+    };
+    table.split("<tr>").map(row).collect()
 }
 
 /// Returns the output of the benchmark of some tasks, without the network.

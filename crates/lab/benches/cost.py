@@ -17,13 +17,14 @@ EPILOG = """
 OPTIONs after `--` go to both `pushplan solve`, as in `-- --effort draft`.
 
 Both commands solve each task in turn, in alternating order. The cost is processor time, user and
-system, of the whole command. Of one command against itself, sums differ by about 2 %. The best plans of both are then replayed by AFTER with perturbations that
-neither search has seen, and the share that reaches the goal is compared. The table has a row per
-task; `a -> b` marks a changed status or number of pushes. Below it are sums, medians and ninth
-deciles, and the robustness over all tasks that both solve.
+system, of the whole command. Of one command against itself, sums differ by about 2 %. The best
+plans of both are then replayed by AFTER with perturbations that neither search has seen, and the
+share that reaches the goal is compared. The table has a row per task; `a -> b` marks a changed
+status or number of pushes. Below it are sums, medians and ninth deciles, and the robustness over
+all tasks that both solve.
 
-  git worktree add /tmp/before HEAD~1 && (cd /tmp/before && cargo build --release --locked)
-  crates/lab/benches/cost.py /tmp/before/target/release/pushplan target/release/pushplan tasks/*.yaml
+  git worktree add /tmp/old HEAD~1 && (cd /tmp/old && cargo build --release --locked)
+  crates/lab/benches/cost.py {/tmp/old/,}target/release/pushplan tasks/*.yaml
 
 Random tasks: `pushplan-lab random --count 64 --save-tasks FOLDER`. In MuJoCo, with OUT from
 --scenes: `python3 OUT/before/replay.py OUT/before/*.xml`, and the same in OUT/after.

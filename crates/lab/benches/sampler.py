@@ -22,20 +22,20 @@ from python import COMMAND, ROOT, processor, theirs
 
 EPILOG = """
 The sampler has the same tools, grips, directions and lengths of pushes as `solve`. Its candidates
-are aligned to faces: 9 lateral offsets of every allowed direction, tool and grip, at most 500, those
-towards the goal first; then 96 near the best eight. One rollout tries all lengths of a candidate. It
-ends early where the remaining travel cannot bring the object to its goal, or where the object leaves
-it again. All rollouts are batches of `mujoco.rollout` with a step of 4 ms, the usual contacts and
-one thread; the scene is reduced to the shapes that touch. Few steps pass without contact, because
-pushes start a few millimetres from the object.
+are aligned to faces: 9 lateral offsets of every allowed direction, tool and grip, at most 500,
+those towards the goal first; then 96 near the best eight. One rollout tries all lengths of a
+candidate. It ends early where the remaining travel cannot bring the object to its goal, or where
+the object leaves it again. All rollouts are batches of `mujoco.rollout` with a step of 4 ms, the
+usual contacts and one thread; the scene is reduced to the shapes that touch. Few steps pass
+without contact, because pushes start a few millimetres from the object.
 
 A plan is found if the object rests at the goal, and in all 8 perturbed rollouts too (starts by a
-millimetre and a degree, frictions by 10 %). `first` is the time until then; `all` is the time of all
-candidates, as in a search for the best plan. Both are processor times and leave out models and
-placement of pushes, which `pushplan` does for the sampler. The time of `solve` is that of the whole
-command: reading, search, verification in two engines, and the page. Rounds alternate between the
-three, and factors are medians over the rounds. Finally both plans are judged in the exported scene
-at 0.25 ms, except for plans of several pushes. Prints Markdown.
+millimetre and a degree, frictions by 10 %). `first` is the time until then; `all` is the time of
+all candidates. Both are processor times and leave out models and placement of pushes, which
+`pushplan` does for the sampler. The time of `solve` is the whole command: reading, search,
+verification in two engines, and the page. Rounds alternate between the three, and factors are
+medians over the rounds. Finally both plans are judged in the exported scene at 0.25 ms, except
+for plans of several pushes. Prints Markdown.
 """
 
 TASKS = ["pull-back", "narrow-gap", "wide-sweep", "diagonal", "turn-the-box"]

@@ -18,9 +18,9 @@ use super::table::{Align, NONE, Table};
 const NOTES: [&str; 3] = [
     "First choice: the sequence of pushes from the home position with the best prediction. \
      Sequences may stop every 5 mm, and not pushing is one of them. Oracle: the best of all \
-     sequences by replay in the 2-D engine. Planned: the plan of `pushplan solve` for the same goal \
-     and tool poses. Its pushes start anywhere in contact, in eight directions. They are searched, \
-     refined and replayed in 3-D until one ends within 5 cm (tried: replays per task).",
+     sequences by replay in the 2-D engine. Planned: the plan of `pushplan solve` for the same \
+     goal and tool poses. Its pushes start anywhere in contact, in eight directions. They are \
+     searched, refined and replayed in 3-D until one ends within 5 cm (tried: replays per task).",
     "When the tool stops, it stays in place while the cylinder glides to rest, in all models and \
      engines. The tool has no hand that could touch the cylinder.",
     "For a single tool pose, all tasks count, including unsolvable ones. For sequences, these \

@@ -2,8 +2,9 @@
 //!
 //! The cylinder stands anywhere in 3 m^2 in front of the robot (1.5 m deep, 2 m wide). A random
 //! push with a random tool pose is drawn together with the start, until the tool sweeps over the
-//! start and moves the cylinder by more than 10 cm. Every goal is therefore within reach of at least one tool pose, and no task is
-//! solved without a push. The drawn push is a witness: no method of the benchmark receives it.
+//! start and moves the cylinder by more than 10 cm. Every goal is therefore within reach of at
+//! least one tool pose, and no task is solved without a push. The drawn push is a witness: no
+//! method of the benchmark receives it.
 
 use rand::Rng;
 use rayon::prelude::*;

@@ -30,8 +30,9 @@ use super::suite::{Cases, Measure, Run, Suite, SuiteArgs, only};
 const TASKS: usize = 16;
 
 /// Duration of runs, before the section on saved benchmarks.
-const DURATION: &str = "A task takes about 5 seconds on one thread, and the default of 16 tasks \
-less than 2 minutes. All goals of a layout take about 10 minutes: --tasks all.";
+const DURATION: &str = "A chained task takes about 6 seconds on one thread, and the default of 16 \
+tasks less than 2 minutes; a single push takes 1 second. All goals of a layout, --tasks all, take \
+about 10 minutes.";
 
 /// Run the reference tool benchmark: choose a tool, pushes and a stopping point for each goal
 #[derive(Args, Debug)]
@@ -75,9 +76,9 @@ enum FormName {
 /// Number of tasks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Count {
-    /// At most this number.
+    /// Stated number.
     Some(usize),
-    /// All goals of a layout.
+    /// Number of goals of a layout.
     All,
 }
 
