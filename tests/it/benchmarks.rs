@@ -33,6 +33,7 @@ fn shards_of_a_benchmark_merge_to_the_bytes_of_one_run() {
     let output = run(&["bench", "merge", &merged, &second, &first, "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(compared(Path::new(&merged)), compared(Path::new(&whole)));
+    assert_eq!(without_times(Path::new(&merged)), without_times(Path::new(&whole)));
 
     let timeless = |text: &[u8]| {
         let mut json: Json = serde_json::from_slice(text).expect("JSON alone");
@@ -115,6 +116,57 @@ fn tasks_that_ask_for_no_place_are_kept() {
 fn compared(dir: &Path) -> [String; 2] {
     ["manifest.json", "records.jsonl"]
         .map(|name| fs::read_to_string(dir.join(name)).expect("a file of the run"))
+}
+
+/// Returns the files that differ between runs, with their times blanked: the numbers of
+/// `times.jsonl`, the columns of `tasks.csv` that end with `_s`, and these and the column `time`
+/// in the tables of `report.html`.
+fn without_times(dir: &Path) -> [String; 3] {
+    let text = |name: &str| fs::read_to_string(dir.join(name)).expect("a file of the run");
+    let times = text("times.jsonl");
+    let times = times.lines().map(|line| {
+        let mut line: Json = serde_json::from_str(line).expect("JSON");
+        let seconds = line["seconds"].as_object_mut().expect("times");
+        assert_eq!(seconds.len(), 4, "{seconds:?}");
+        seconds.values_mut().for_each(|time| *time = Json::Null);
+        format!("{line}\n")
+    });
+    let rows = text("tasks.csv");
+    let header: Vec<&str> = rows.lines().next().expect("a header").split(',').collect();
+    let timed: Vec<bool> = header.iter().map(|name| name.ends_with("_s")).collect();
+    assert_eq!(timed.iter().filter(|timed| **timed).count(), 4, "{header:?}");
+    let rows = rows.lines().skip(1).map(|line| {
+        let cells: Vec<&str> = line.split(',').collect();
+        assert_eq!(cells.len(), header.len(), "{line}");
+        let kept = cells.iter().zip(&timed).filter(|(_, timed)| !**timed);
+        kept.map(|(cell, _)| format!("{cell},")).collect::<String>() + "\n"
+    });
+    let page = text("report.html");
+    let page = page.split("<table>").map(|part| match part.split_once("</table>") {
+        Some((table, rest)) => table_without_times(table) + rest,
+        None => part.to_owned(),
+    });
+    [times.collect(), header.join(",") + &rows.collect::<String>(), page.collect()]
+}
+
+/// Returns a table of a page without the cells of its columns of times.
+fn table_without_times(table: &str) -> String {
+    let mut timed = Vec::new();
+    let row = |row: &str| {
+        if row.contains("</th>") {
+            let name = |cell: &str| cell.rsplit('>').next().unwrap_or_default().to_owned();
+            let names: Vec<String> = row.split("</th>").map(name).collect();
+            timed = names.iter().map(|name| name == "time" || name.ends_with("_s")).collect();
+            assert!(timed.contains(&true), "{row}");
+            return row.to_owned();
+        }
+        let cells = row.split("</td>").enumerate();
+        cells
+            .filter(|(column, _)| timed.get(*column) != Some(&true))
+            .map(|(_, cell)| cell)
+            .collect()
+    };
+    table.split("<tr>").map(row).collect()
 }
 
 /// Returns the output of the benchmark of some tasks, without the network.

@@ -8,7 +8,7 @@ use pushplan::geometry::Vector;
 use pushplan::scene::ModelKind;
 use pushplan::solve::{Effort, Planner};
 use pushplan_bench::{
-    GoalSet, Layout, Method, ReferenceSetup, StartGoals, ToolBench, ToolRecord, single_pushes,
+    GoalSet, Layout, Method, ReferenceSetup, StartGoals, ToolBench, ToolForm, ToolRecord,
 };
 
 use crate::program::succeed;
@@ -113,20 +113,61 @@ fn measure(threads: usize) -> ToolRecord {
 }
 
 #[test]
-fn single_pushes_are_solved_where_they_can_be_whatever_the_number_of_threads() {
-    let model = EffectModels::build(&ModelKind::NETWORK.into()).expect("the shipped weights");
-    let pushed = |threads: usize| {
+fn every_single_goal_is_the_end_of_some_push_whatever_the_number_of_threads() {
+    let setup = ReferenceSetup::new(Layout::Grid).with_form(ToolForm::Single);
+    let drawn = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| single_pushes(&model, 7, 2000))
+        pool.install(|| GoalSet::single(&setup, 7, 40))
     };
-    let report = pushed(2);
-    assert_eq!(report, pushed(1));
-    // A square of 4 m against a circle of 35 cm, and of 10 cm.
-    assert!((20..80).contains(&report.near), "{report:?}");
-    assert!((1..12).contains(&report.nothing), "{report:?}");
-    assert!(report.solvable >= report.nothing && report.solvable < report.near, "{report:?}");
-    assert_eq!(report.solvable - report.missed, report.planar, "{report:?}");
-    assert!(report.missed <= 1, "{report:?}");
+    let goals = drawn(2);
+    assert_eq!(goals, drawn(1));
+    assert_eq!(goals.len(), 40);
+    for start in &goals.starts {
+        let [goal] = &start.goals[..] else { panic!("{start:?}") };
+        let away = (Vector::from(goal.at) - Vector::from(start.start)).norm();
+        // Further than the coarse threshold, and no further than the travel and a short glide.
+        assert!((0.10..0.21).contains(&away), "{start:?}");
+        assert!(setup.pose(&goal.pose).is_some(), "{goal:?}");
+    }
+    let others = GoalSet::single(&setup, 8, 40);
+    assert!(goals.starts.iter().zip(&others.starts).all(|(one, other)| one != other));
+
+    let model = EffectModels::build(&ModelKind::NETWORK.into()).expect("the shipped weights");
+    let planner = Planner::for_effort(Effort::Draft).expect("weights").build();
+    let mut bench = ToolBench::new(setup, goals, Arc::new(model), planner, 7);
+    let mut unreachable = 0;
+    for index in 0..2 {
+        let record = bench.measure(index).expect("a task").record;
+        let of = |method: Method, pose: Option<usize>| {
+            let mut trials = record.trials.iter();
+            trials.find(|trial| trial.method == method && trial.pose == pose).expect("a trial")
+        };
+        // The witness is among the executed pushes, up to the rounding of the goal.
+        assert!(of(Method::Oracle, None).planar.error < 2e-6, "{record:?}");
+        assert!(of(Method::Nothing, None).planar.error > 0.10, "{record:?}");
+        assert!(record.trials.iter().all(|trial| trial.pushes <= 1), "{record:?}");
+        unreachable +=
+            (0..7).filter(|&pose| of(Method::Oracle, Some(pose)).planar.error > 0.05).count();
+    }
+    assert!((1..14).contains(&unreachable), "no difference between tools: {unreachable}");
+}
+
+#[test]
+fn some_goals_are_spread_over_the_starts() {
+    let goals = GoalSet::shipped(Layout::Grid).expect("a sound file");
+    let all = goals.len();
+    for count in [1, 16, 24, all - 1, all, all + 1] {
+        let some = goals.clone().evenly(count);
+        assert_eq!(some.len(), count.min(all));
+        let each = some.starts.iter().zip(&goals.starts);
+        assert!(each.clone().all(|(few, all)| few.start == all.start));
+        assert!(
+            each.flat_map(|(few, all)| few.goals.iter().map(move |goal| (goal, all)))
+                .all(|(goal, all)| all.goals.contains(goal))
+        );
+    }
+    let met = |goals: GoalSet| goals.starts.iter().filter(|one| !one.goals.is_empty()).count();
+    assert!(met(goals.evenly(16)) >= 12);
 }
 
 #[test]
@@ -134,7 +175,7 @@ fn a_part_of_the_benchmark_is_kept_and_shown_again() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
     let run = |line: &str| String::from_utf8(succeed(line).stdout).expect("UTF-8");
-    let json = run(&format!("bench tools --effort draft --shard 118/118 --out {out} --json"));
+    let json = run(&format!("bench tools --effort draft --shard 16/16 --out {out} --json"));
     let json: serde_json::Value = serde_json::from_str(&json).expect("JSON alone");
     assert_eq!(json["run"]["suite"], "tools");
     assert_eq!(json["tasks"].as_array().map(Vec::len), Some(1));

@@ -16,6 +16,5 @@ pub use effects::{TimedEffect, timed_effect};
 pub use solved::{End, SolvedTask};
 pub use tools::{
     EngineErrors, Executed, GoalMade, GoalSet, Layout, Method, PROCESSOR, ReferenceSetup,
-    SinglePushes, StartGoals, ToolBench, ToolBenchError, ToolRecord, ToolRow, ToolTrial,
-    single_pushes, summarise,
+    StartGoals, ToolBench, ToolBenchError, ToolForm, ToolRecord, ToolRow, ToolTrial, summarise,
 };

@@ -9,7 +9,7 @@ use pushplan::progress::Progress;
 use super::{
     error::CliError,
     interrupt,
-    session::{Session, count},
+    session::{Session, count, size},
 };
 
 /// Progress bar or spinner of a job.
@@ -83,7 +83,11 @@ impl Progress for TerminalProgress<'_> {
         if self.staged {
             count(&self.bar, total > 0);
         }
-        self.bar.set_length(total);
+        if self.staged {
+            self.bar.set_length(total);
+        } else {
+            size(&self.bar, total);
+        }
         self.bar.set_position(done);
     }
 

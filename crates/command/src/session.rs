@@ -1,11 +1,12 @@
 //! Shared state of subcommands: output, progress and threads.
 
+use std::fmt;
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use pushplan::asset::printable;
@@ -40,6 +41,9 @@ const COUNTED: &str = "{spinner} {prefix}, {elapsed} {msg}, {pos}/{len}";
 /// Delay before progress is shown. A first plan is often found within this time, and a user does
 /// not notice a delay below a tenth of a second.
 const SHOW_AFTER: Duration = Duration::from_millis(50);
+
+/// Interval in which shown progress is drawn again.
+const TICK: Duration = Duration::from_millis(200);
 
 /// Session of one command, with its thread pool.
 #[derive(Debug)]
@@ -141,7 +145,8 @@ impl Session {
             return ProgressBar::hidden();
         }
         let bar = ProgressBar::new(0);
-        bar.set_style(style("{prefix} [{bar:30}] {pos}/{len}, {per_sec}, {eta} left {msg}"));
+        let bar_style = style("{prefix} [{bar:30}] {pos}/{len}, {elapsed}{left} {msg}");
+        bar.set_style(bar_style.with_key("left", left));
         bar.set_prefix(what.to_owned());
         bar
     }
@@ -167,11 +172,28 @@ impl Session {
                 std::thread::sleep(SHOW_AFTER);
                 if !later.is_finished() {
                     later.set_draw_target(ProgressDrawTarget::stderr());
-                    later.enable_steady_tick(Duration::from_millis(200));
+                    later.enable_steady_tick(TICK);
                 }
             });
         }
         bar
+    }
+}
+
+/// Sets the number of units of a bar, which is then drawn regularly, also before the first unit is
+/// finished.
+pub fn size(bar: &ProgressBar, total: u64) {
+    if bar.length() != Some(total) {
+        bar.set_length(total);
+        bar.enable_steady_tick(TICK);
+    }
+}
+
+/// Writes the estimated remaining time, unless no unit is finished yet.
+fn left(state: &ProgressState, out: &mut dyn fmt::Write) {
+    if state.pos() > 0 {
+        // A failure only leaves the time out.
+        let _ = write!(out, ", {:#} left", HumanDuration(state.eta()));
     }
 }
 

@@ -62,6 +62,6 @@ pub use second_opinion::{Judged, SecondOpinion, TimedReplay};
 pub use solution::{solution_document, solution_title};
 pub use solved::{SOLVED_COLUMNS, error_chart, flat, progress_note, solved_cells, solved_document};
 pub use table::{Align, Column, NONE, Table};
-pub use tools::{single_document, tools_document};
+pub use tools::tools_document;
 pub use trajectory::trajectory_figures;
 pub use verdict::{replay_warnings, verdict_document};

@@ -5,8 +5,8 @@ use serde_json::json;
 use pushplan_act::judge::Summary;
 use pushplan_bench::store::{Finished, RunManifest};
 use pushplan_bench::{
-    EngineErrors, Layout, Method, PROCESSOR, ReferenceSetup, SinglePushes, ToolRecord, ToolRow,
-    ToolTrial, summarise,
+    EngineErrors, Layout, Method, PROCESSOR, ReferenceSetup, ToolRecord, ToolRow, ToolTrial,
+    summarise,
 };
 
 use super::document::{Document, Section};
@@ -16,11 +16,11 @@ use super::table::{Align, NONE, Table};
 
 /// Explanatory notes, a paragraph each.
 const NOTES: [&str; 3] = [
-    "First choice: the chained sequence of up to three pushes with the best prediction. Sequences \
-     may stop every 5 mm, and not pushing is one of them. Oracle: the best of all sequences by \
-     replay in the 2-D engine. Planned: the plan of `pushplan solve` for the same goal and tool \
-     poses. Its pushes start anywhere in contact, in eight directions. They are searched, refined \
-     and replayed in 3-D until one ends within 5 cm (tried: replays per task).",
+    "First choice: the sequence of pushes from the home position with the best prediction. \
+     Sequences may stop every 5 mm, and not pushing is one of them. Oracle: the best of all \
+     sequences by replay in the 2-D engine. Planned: the plan of `pushplan solve` for the same \
+     goal and tool poses. Its pushes start anywhere in contact, in eight directions. They are \
+     searched, refined and replayed in 3-D until one ends within 5 cm (tried: replays per task).",
     "When the tool stops, it stays in place while the cylinder glides to rest, in all models and \
      engines. The tool has no hand that could touch the cylinder.",
     "For a single tool pose, all tasks count, including unsolvable ones. For sequences, these \
@@ -65,9 +65,12 @@ pub fn tools_document(run: &RunManifest, tasks: &[Finished<ToolRecord>]) -> Docu
             rows.row(cells(&setup, task.index, &task.record, trial));
         }
     }
-    let layout = run.settings["layout"].as_str().unwrap_or("unknown");
+    let form = match (run.settings["form"].as_str(), run.settings["layout"].as_str()) {
+        (Some("single"), _) => format!("of single pushes, seed {}", run.seed),
+        (_, layout) => format!("on the {} layout", layout.unwrap_or("unknown")),
+    };
     Document {
-        title: format!("{} tasks on the {layout} layout, {}", tasks.len(), run.model),
+        title: format!("{} tasks {form}, {}", tasks.len(), run.model),
         notes: progress_note(run, tasks.len())
             .into_iter()
             .chain(NOTES.map(str::to_owned))
@@ -100,35 +103,6 @@ pub fn tools_document(run: &RunManifest, tasks: &[Finished<ToolRecord>]) -> Docu
             "summary": summary,
             "tasks": tasks.iter().map(flat).collect::<Vec<_>>(),
         }),
-    }
-}
-
-/// Returns a report on the single-push benchmark: number of solvable and of solved tasks.
-pub fn single_document(report: &SinglePushes) -> Document {
-    let model = &report.model;
-    let choices = [
-        ("no push".to_owned(), report.nothing),
-        ("oracle (2-D)".to_owned(), report.solvable),
-        (format!("{model}, predicted"), report.predicted),
-        (format!("{model}, in the 2-D engine"), report.planar),
-        (format!("{model}, in 3-D"), report.spatial),
-    ];
-    let table = Table::of(
-        choices,
-        &[
-            ("choice", Align::Left, &|(choice, _)| choice.clone()),
-            ("solved", Align::Right, &|(_, solved)| solved.to_string()),
-        ],
-    );
-    Document {
-        title: format!(
-            "{} tasks of seed {}, one push of 20 cm each, solved within 10 cm; {} of the goals are \
-             close enough for a push to help",
-            report.tasks, report.seed, report.near
-        ),
-        sections: vec![Section { table, ..Section::default() }],
-        json: json!({"single": report}),
-        ..Document::default()
     }
 }
 

@@ -86,7 +86,13 @@ impl Executions {
     }
 }
 
-fn play(setup: &ReferenceSetup, task: &Task, engine: Engine, action: &Action) -> Landing {
+/// Executes an action in `engine`.
+pub(super) fn play(
+    setup: &ReferenceSetup,
+    task: &Task,
+    engine: Engine,
+    action: &Action,
+) -> Landing {
     let scene = &task.scene;
     if action.pushes.is_empty() {
         return Landing { at: scene.objects[task.goals[0].object].pose.position, sound: true };

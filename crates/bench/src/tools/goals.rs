@@ -14,6 +14,7 @@ use super::{
     execute::Action,
     sequences::Rolling,
     setup::{Layout, ReferenceSetup, STEPS},
+    single::single_goals,
 };
 
 /// Goals of the layouts.
@@ -23,7 +24,7 @@ const SCATTERED: &str = include_str!("goals-scattered.json");
 /// Version of the goal file format, raised when the layout changes.
 pub const GOALS_VERSION: u32 = 1;
 
-/// Minimum distance of goals from the start and from each other, metres.
+/// Minimum distance of chained goals from the start and from each other, metres.
 const APART: f64 = 0.05;
 
 /// Rounding of positions to a micrometre, far below the accuracy of the benchmark.
@@ -80,6 +81,26 @@ impl GoalSet {
             made_by: "pushplan bench tools --make-goals".into(),
             starts: starts.collect(),
         }
+    }
+
+    /// Generates the goals of `tasks` single pushes of a seed, each the end position of a random
+    /// push with a random tool pose.
+    pub fn single(setup: &ReferenceSetup, seed: u64, tasks: usize) -> Self {
+        single_goals(setup, seed, tasks)
+    }
+
+    /// Keeps `count` goals, spread evenly over the starts; all goals if there are not more.
+    pub fn evenly(mut self, count: usize) -> Self {
+        let all = self.len();
+        let mut index = 0;
+        for start in &mut self.starts {
+            start.goals.retain(|_| {
+                index += 1;
+                // The share of goals up to this one crosses a whole number `count` times.
+                count >= all || index * count / all > (index - 1) * count / all
+            });
+        }
+        self
     }
 
     /// Returns the number of tasks.
@@ -152,13 +173,13 @@ impl StartGoals {
     }
 }
 
-fn rounded(at: Vector) -> [f64; 2] {
+pub(super) fn rounded(at: Vector) -> [f64; 2] {
     // The sum turns a negative zero into zero.
     [at.x, at.y].map(|value| (value * DIGITS).round() / DIGITS + 0.0)
 }
 
 /// Formats the directions of a sequence: `+x -y +x`.
-fn spelled(action: &Action) -> String {
+pub(super) fn spelled(action: &Action) -> String {
     let ways: Vec<&str> = action
         .pushes
         .iter()

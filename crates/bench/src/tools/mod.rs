@@ -1,4 +1,5 @@
-//! The reference tool benchmark: choice of tool, pushes and stop that bring a cylinder to a goal.
+//! The reference tool benchmark: choice of tool, pushes and stop that bring a cylinder to a goal,
+//! by up to three chained pushes or by a single one.
 //!
 //! The reference chooses among all chained sequences and stops by prediction only. `sequences` and
 //! `choose` implement this protocol on top of an effect model alone, because it measures a model
@@ -20,7 +21,6 @@ mod trials;
 pub use goals::{GoalMade, GoalSet, StartGoals};
 pub use measure::{ToolBench, ToolBenchError};
 pub use record::{Executed, Method, ToolRecord, ToolTrial};
-pub use setup::{Layout, ReferenceSetup};
-pub use single::{SinglePushes, single_pushes};
+pub use setup::{Layout, ReferenceSetup, ToolForm};
 pub use spent::PROCESSOR;
 pub use summary::{EngineErrors, ToolRow, summarise};

@@ -27,8 +27,8 @@ pub const TRAVEL: f64 = 0.20;
 /// Speed of a push, m/s.
 pub const SPEED: f64 = 0.10;
 
-/// Number of pushes of a sequence.
-pub const PUSHES: usize = 3;
+/// Number of pushes of a chained sequence.
+const CHAINED: usize = 3;
 
 /// Error below which a task counts as solved, metres; the second, coarser threshold is [`COARSE`].
 pub const FINE: f64 = 0.05;
@@ -87,9 +87,31 @@ impl Layout {
     }
 }
 
+/// Pushes of a task.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ToolForm {
+    /// Up to three consecutive pushes from a fixed home position.
+    Chained,
+    /// Single push from the home position, with random start and goal.
+    Single,
+}
+
+impl ToolForm {
+    /// Returns the largest number of pushes of a task.
+    fn pushes(self) -> usize {
+        match self {
+            ToolForm::Chained => CHAINED,
+            ToolForm::Single => 1,
+        }
+    }
+}
+
 /// Tool poses and starts.
 #[derive(Clone, Debug)]
 pub struct ReferenceSetup {
+    /// Pushes of a task.
+    pub form: ToolForm,
     /// Tool poses, each as a separate tool that is held without rotation: stick, L and inverse L.
     /// They are named `stick -90`, with the rotation in degrees.
     pub poses: Vec<Arc<Tool>>,
@@ -98,7 +120,7 @@ pub struct ReferenceSetup {
 }
 
 impl ReferenceSetup {
-    /// Returns the tools, poses and starts of a layout.
+    /// Returns the tools, poses and starts of a layout, for chained pushes.
     pub fn new(layout: Layout) -> Self {
         let tools = reference_tools();
         let posed = |&(tool, quarters): &(usize, i8)| {
@@ -118,21 +140,27 @@ impl ReferenceSetup {
                 layout.place(start, i * GRID.1 + j)
             })
             .collect();
-        Self { poses, starts }
+        Self { form: ToolForm::Chained, poses, starts }
     }
 
-    /// Returns the task of bringing the cylinder from `start` to `goal` (metres) by chained pushes.
+    /// Returns the setup for another form of pushes.
+    pub fn with_form(self, form: ToolForm) -> Self {
+        Self { form, ..self }
+    }
+
+    /// Returns the task of bringing the cylinder from `start` to `goal` (metres) by pushes from the
+    /// home position.
     pub fn task(&self, start: Vector, goal: Vector) -> Task {
         let cylinder = Object::cylinder("cylinder", 0.05, 0.10).mass(0.5);
         let scene = Scene::new([cylinder.at(start.x, start.y, 0.0)]);
         // The end effector stays within the range of chained sequences.
-        let robot = Robot::reaching(0.0, PUSHES as f64 * TRAVEL).without_body();
+        let robot = Robot::reaching(0.0, CHAINED as f64 * TRAVEL).without_body();
         Task::new("reference", scene, robot, Goal::new(0, goal.into(), FINE)).pushing(PushRules {
             form: PushForm::Chained,
             grip_yaws: vec![0.0],
             length: TRAVEL,
             speed: SPEED,
-            max_count: PUSHES,
+            max_count: self.form.pushes(),
             lift: LIFT,
             ..PushRules::default()
         })

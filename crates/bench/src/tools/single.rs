@@ -1,139 +1,96 @@
-//! The single-push benchmark: one push of 20 cm, with random start and goal.
+//! Goals of single pushes: end positions of random pushes from random starts in the 2-D engine.
 //!
-//! The cylinder stands anywhere in 3 m^2 in front of the robot (1.5 m deep, 2 m wide). The goal
-//! lies anywhere in 16 m^2 around it (a square of 4 m), and a task is solved within 10 cm. Most of
-//! these tasks have no solution, so the number of solvable tasks is reported with the successes.
+//! The cylinder stands anywhere in 3 m^2 in front of the robot (1.5 m deep, 2 m wide). A random
+//! push with a random tool pose is drawn together with the start, until the tool sweeps over the
+//! start and moves the cylinder by more than 10 cm. Every goal is therefore within reach of at
+//! least one tool pose, and no task is solved without a push. The drawn push is a witness: no
+//! method of the benchmark receives it.
 
 use rand::Rng;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use pushplan::{
-    effect::{EffectModel, Simulated},
-    geometry::Vector,
+    geometry::{Pose, Vector, clearance},
     scene::Engine,
     seeded::generator,
-    sim::Simulator,
-    task::Task,
+    task::{Push, PushForm, Task},
 };
 
 use super::{
-    choose::rested,
-    execute::{Action, Executions},
-    sequences::Rolling,
-    setup::{COARSE, Layout, ReferenceSetup, TRAVEL},
+    execute::{Action, play},
+    goals::{GOALS_VERSION, GoalMade, GoalSet, StartGoals, rounded, spelled},
+    setup::{COARSE, ReferenceSetup, SPEED, STEPS, TRAVEL},
 };
 
-/// Depth and width of the area of starts, and side of the goal's square, metres.
+/// Depth and width of the area of starts, metres.
 const DEPTH: f64 = 1.5;
 const WIDTH: f64 = 2.0;
-const SQUARE: f64 = 4.0;
 
-/// Bound on the cylinder's displacement beyond the travel of a push, metres; the measured value at
-/// this speed is two millimetres.
-const GLIDE: f64 = 0.05;
+/// Spacing of the tool positions that are compared with a start, metres; a fraction of the
+/// cylinder's radius.
+const SPACING: f64 = 0.01;
 
-/// Salt that separates these tasks from other uses of a seed.
+/// Salt that separates these draws from other uses of a seed.
 const SALT: u64 = 0x0051;
 
-/// Result of the single-push benchmark for all tasks of a seed.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct SinglePushes {
-    /// Name of the effect model.
-    pub model: String,
-    /// Seed of the tasks.
-    pub seed: u64,
-    /// Number of tasks.
-    pub tasks: usize,
-    /// Number of tasks whose goal is within reach of a push.
-    pub near: usize,
-    /// Number of tasks that are solved without pushing.
-    pub nothing: usize,
-    /// Number of tasks that some push, or none, solves in the 2-D engine.
-    pub solvable: usize,
-    /// Number of tasks that the model predicts to solve.
-    pub predicted: usize,
-    /// Number of tasks that the model's choice solves in the 2-D engine.
-    pub planar: usize,
-    /// Number of tasks that the model's choice solves in the 3-D engine.
-    pub spatial: usize,
-    /// Number of solvable tasks that the model's choice does not solve in the 2-D engine.
-    pub missed: usize,
-}
-
-/// Result of one task, in the order of [`SinglePushes`].
-struct One {
-    nothing: bool,
-    solvable: bool,
-    predicted: bool,
-    planar: bool,
-    spatial: bool,
-}
-
-/// Measures `tasks` random tasks of `seed` with `model`, in parallel on the current rayon pool.
-pub fn single_pushes(model: &dyn EffectModel, seed: u64, tasks: usize) -> SinglePushes {
-    let setup = ReferenceSetup::new(Layout::Grid);
-    let done: Vec<Option<One>> =
-        (0..tasks).into_par_iter().map(|index| one(&setup, model, seed, index)).collect();
-    let near: Vec<&One> = done.iter().flatten().collect();
-    let count = |solved: &dyn Fn(&One) -> bool| near.iter().filter(|one| solved(one)).count();
-    SinglePushes {
-        model: model.spec().to_string(),
-        seed,
-        tasks,
-        near: near.len(),
-        nothing: count(&|one| one.nothing),
-        solvable: count(&|one| one.solvable),
-        predicted: count(&|one| one.predicted),
-        planar: count(&|one| one.planar),
-        spatial: count(&|one| one.spatial),
-        missed: count(&|one| one.solvable && !one.planar),
+/// Returns the goals of `tasks` single pushes, each with its own start, in parallel on the current
+/// rayon pool. Equal seeds give equal goals.
+pub(super) fn single_goals(setup: &ReferenceSetup, seed: u64, tasks: usize) -> GoalSet {
+    let starts = (0..tasks).into_par_iter().map(|index| drawn(setup, seed, index)).collect();
+    let words = "pushplan bench tools --form single";
+    GoalSet {
+        version: GOALS_VERSION,
+        made_by: format!("{words} --seed {seed} --tasks {tasks} --make-goals"),
+        starts,
     }
 }
 
-/// Measures one task; returns `None` if the goal is out of reach of any push.
-fn one(setup: &ReferenceSetup, model: &dyn EffectModel, seed: u64, index: usize) -> Option<One> {
+/// Draws starts and pushes until one moves the cylinder far enough. A few pushes in a hundred sweep
+/// over their start, and most of them do, so the loop ends.
+fn drawn(setup: &ReferenceSetup, seed: u64, index: usize) -> StartGoals {
     let mut random = generator(seed ^ SALT, index as u64);
-    let mut within = |low: f64, size: f64| low + size * random.random::<f64>();
-    let start = Vector::new(within(0.0, DEPTH), within(-WIDTH / 2.0, WIDTH));
-    let goal = start + Vector::new(within(-SQUARE / 2.0, SQUARE), within(-SQUARE / 2.0, SQUARE));
-    if (goal - start).norm() > TRAVEL + GLIDE + COARSE {
-        return None;
-    }
-    let mut task = setup.task(start, goal);
-    task.pushes.max_count = 1;
-    task.goals[0].set_tolerance(COARSE);
-    let nothing = (goal - start).norm() <= COARSE;
-    let choice = choose(setup, model, &task);
-    let mut executions = Executions::default();
-    let mut solved = |engine| match &choice {
-        Some((action, _)) => {
-            let landing = executions.run(setup, &task, engine, &[action])[0];
-            landing.sound && (landing.at - goal).norm() <= COARSE
+    loop {
+        let x = random.random_range(0.0..DEPTH);
+        let start = rounded(Vector::new(x, random.random_range(-WIDTH / 2.0..WIDTH / 2.0)));
+        let at = Vector::from(start);
+        let task = setup.task(at, at);
+        let ways = task.pushes.directions.headings();
+        let pose = random.random_range(0..setup.poses.len());
+        let direction = ways[random.random_range(0..ways.len())];
+        let steps = random.random_range(1..=STEPS);
+        let length = TRAVEL * steps as f64 / STEPS as f64;
+        let tool = (pose, direction, length - COARSE);
+        if !sweeps(setup, &task, tool) || !setup.free_poses(at).contains(&pose) {
+            continue;
         }
-        None => nothing,
-    };
-    let (planar, spatial) = (solved(Engine::Planar), solved(Engine::Spatial));
-    let truth = Simulated::new(Simulator::planar());
-    let best = choose(setup, &truth, &task).map(|(_, error)| error);
-    Some(One {
-        nothing,
-        solvable: nothing || best.is_some_and(|error| error <= COARSE),
-        predicted: choice.as_ref().map_or(nothing, |(_, error)| *error <= COARSE),
-        planar,
-        spatial,
-    })
+        let push = Push { start: task.robot.home, direction, length, speed: SPEED };
+        let action = Action { pose, form: PushForm::Chained, pushes: vec![push] };
+        let landing = play(setup, &task, Engine::Planar, &action);
+        if landing.sound && (landing.at - at).norm() > COARSE {
+            let (pose, pushes) = (setup.poses[pose].name.clone(), spelled(&action));
+            let goal = GoalMade { at: rounded(landing.at), pose, pushes };
+            return StartGoals { start, goals: vec![goal] };
+        }
+    }
 }
 
-/// Returns the whole push that `model` predicts to end nearest to the goal, and its error; `None`
-/// if not pushing is nearest.
-fn choose(setup: &ReferenceSetup, model: &dyn EffectModel, task: &Task) -> Option<(Action, f64)> {
-    let goal = &task.goals[0];
-    let start = task.scene.objects[goal.object].pose.position;
-    let poses = setup.free_poses(start);
-    let sequences = Rolling { setup, task, model, poses: &poses, steps: 1 }.shared();
-    let (_, nearest) = sequences.best(goal, 1, &poses).pop()?;
-    let best = rested(setup, model, task, vec![nearest]).pop()?;
-    let error = best.predicted.filter(|error| *error < goal.error(&task.scene.start()))?;
-    Some((best.action, error))
+/// Returns `true` if a tool pose overlaps the cylinder within some travel (metres) from home in a
+/// direction.
+fn sweeps(
+    setup: &ReferenceSetup,
+    task: &Task,
+    (pose, direction, travel): (usize, f64, f64),
+) -> bool {
+    let (tool, cylinder) = (&setup.poses[pose], &task.scene.objects[0]);
+    let still = (&cylinder.shape.footprint(), &cylinder.pose);
+    let way = Vector::new(direction.cos(), direction.sin());
+    let overlaps = |moved: f64| {
+        let position = task.robot.home + way * moved;
+        let frame = tool.pose(Pose { position, heading: 0.0 });
+        (0..tool.parts().len()).any(|k| {
+            let part = tool.parts()[k].footprint();
+            clearance((&part, &tool.part_pose(k, &frame)), still, SPACING) <= 0.0
+        })
+    };
+    travel > 0.0 && (0..=(travel / SPACING) as usize).any(|k| overlaps(k as f64 * SPACING))
 }

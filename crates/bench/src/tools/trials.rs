@@ -22,7 +22,7 @@ use super::{
     execute::{Action, Landing},
     measure::Shared,
     record::{Executed, Method, ToolTrial},
-    setup::{PUSHES, ReferenceSetup, STEPS, TRAVEL},
+    setup::{ReferenceSetup, STEPS, TRAVEL},
     spent::{PROCESSOR, Spent},
 };
 
@@ -163,7 +163,8 @@ impl<'a> Trials<'a> {
         let pose = *self.poses.get(random.random_range(0..self.poses.len().max(1)))?;
         let ways = self.task.pushes.directions.headings();
         let (mut start, speed) = (self.task.robot.home, self.task.pushes.speed);
-        let mut pushes: Vec<Push> = (0..PUSHES)
+        let most = self.task.pushes.max_count;
+        let mut pushes: Vec<Push> = (0..most)
             .map(|_| {
                 let direction = ways[random.random_range(0..ways.len())];
                 let push = Push { start, direction, length: TRAVEL, speed };
@@ -171,7 +172,7 @@ impl<'a> Trials<'a> {
                 push
             })
             .collect();
-        let stop = random.random_range(1..=PUSHES * STEPS);
+        let stop = random.random_range(1..=most * STEPS);
         pushes.truncate(stop.div_ceil(STEPS));
         if let Some(last) = pushes.last_mut() {
             last.length = TRAVEL * ((stop - 1) % STEPS + 1) as f64 / STEPS as f64;

@@ -1,6 +1,8 @@
 //! `pushplan bench tools`: the reference tool benchmark.
 
+use std::fmt;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
 use serde_json::json;
@@ -17,16 +19,24 @@ use pushplan::scene::{ModelKind, ModelSpec};
 use pushplan::solve::{Effort, Planner, Settings};
 use pushplan_bench::store::RunManifest;
 use pushplan_bench::{
-    GoalSet, Layout, ReferenceSetup, ToolBench, ToolBenchError, ToolRecord, single_pushes,
+    GoalSet, Layout, ReferenceSetup, ToolBench, ToolBenchError, ToolForm, ToolRecord,
 };
-use pushplan_report::{Document, single_document, tools_document};
+use pushplan_report::{Document, tools_document};
 
 use super::keep::{self, KeepArgs, value_digest, weights_digest};
 use super::suite::{Cases, Measure, Run, Suite, SuiteArgs, only};
 
+/// Number of tasks by default, which takes less than two minutes on one thread.
+const TASKS: usize = 16;
+
+/// Duration of runs, before the section on saved benchmarks.
+const DURATION: &str = "A chained task takes about 6 seconds on one thread, and the default of 16 \
+tasks less than 2 minutes; a single push takes 1 second. All goals of a layout, --tasks all, take \
+about 10 minutes.";
+
 /// Run the reference tool benchmark: choose a tool, pushes and a stopping point for each goal
 #[derive(Args, Debug)]
-#[command(after_help = keep::HELP)]
+#[command(after_help = format!("{DURATION}\n\n{}", keep::HELP))]
 pub struct ToolsArgs {
     /// Effect model of all rows [default: the network; for the planner, the model of the effort]
     #[arg(long, value_name = "MODEL")]
@@ -42,14 +52,13 @@ pub struct ToolsArgs {
     /// Search effort of the planner
     #[arg(long, value_parser = possible_values(&EFFORTS), default_value = "standard")]
     effort: Effort,
-    /// Number of tasks with --form single
-    #[arg(long, value_name = "N", default_value_t = 10_000,
-          value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
-    tasks: u32,
-    /// Seed of the random choices, and of the tasks with --form single
+    /// Number of tasks: chained goals spread evenly over the layout, or `all` of them
+    #[arg(long, value_name = "N", default_value_t = Count::Some(TASKS))]
+    tasks: Count,
+    /// Seed of the random choices, and of the goals with --form single
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// Regenerate the goals of the layout, write them to this file, and exit
+    /// Generate the goals again, write them to this file, and exit; of a layout always all
     #[arg(long, value_name = "FILE")]
     make_goals: Option<PathBuf>,
 }
@@ -57,47 +66,103 @@ pub struct ToolsArgs {
 /// Pushes of a task.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum FormName {
-    /// Three consecutive pushes from a fixed home position
+    /// Up to three consecutive pushes from a fixed home position
     #[default]
     Chained,
-    /// Single push with random start and goal (the earlier form)
+    /// Single push from the home position; random starts, each with a goal that some push reaches
     Single,
 }
 
-/// Runs the benchmark, or the single pushes or the generation of goals if selected.
+/// Number of tasks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Count {
+    /// Stated number.
+    Some(usize),
+    /// Number of goals of a layout.
+    All,
+}
+
+/// Largest number of tasks.
+const MOST: usize = 1_000_000;
+
+impl FromStr for Count {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match (text, text.parse()) {
+            ("all", _) => Ok(Self::All),
+            (_, Ok(count @ 1..=MOST)) => Ok(Self::Some(count)),
+            _ => Err(format!("expected `all` or a number from 1 to {MOST}")),
+        }
+    }
+}
+
+impl fmt::Display for Count {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Some(count) => count.fmt(f),
+            Self::All => f.write_str("all"),
+        }
+    }
+}
+
+/// Runs the benchmark, or generates goals if selected.
 ///
 /// # Errors
 /// Returns the errors of [`SuiteArgs::run`], and errors of writing goals.
 pub fn run(args: &SuiteArgs<ToolsArgs>, session: &Session) -> Result<(), CliError> {
     let tools = &args.suite;
-    if let Some(file) = &tools.make_goals {
-        let setup = ReferenceSetup::new(tools.layout);
-        let spinner = session.spinner("simulating");
-        let goals = session.compute(|| GoalSet::make(&setup));
-        spinner.finish_and_clear();
-        write_atomic(file, goals.to_text().as_bytes()).map_err(CliError::Output)?;
-        return session.print(&format!("{} goals in {}\n", goals.len(), file.display()));
-    }
-    if tools.form == FormName::Chained {
-        return args.run(session);
-    }
-    if args.keep.out.is_some() {
-        return Err(CliError::usage(
-            "single pushes are neither saved nor sharded, because they take only seconds",
-            "omit --out or --form single",
-        ));
-    }
-    let model = tools.out_of_range.load(&tools.spec())?;
-    let spinner = session.spinner("pushing");
-    let report = session.compute(|| single_pushes(&model, tools.seed, tools.tasks as usize));
+    let Some(file) = &tools.make_goals else { return args.run(session) };
+    let setup = tools.setup();
+    let spinner = session.spinner("simulating");
+    let goals = match tools.form {
+        FormName::Chained => Ok(session.compute(|| GoalSet::make(&setup))),
+        FormName::Single => tools.goals(&setup, session),
+    };
     spinner.finish_and_clear();
-    args.form.show(session, &single_document(&report))
+    let goals = goals?;
+    write_atomic(file, goals.to_text().as_bytes()).map_err(CliError::Output)?;
+    session.print(&format!("{} goals in {}\n", goals.len(), file.display()))
 }
 
 impl ToolsArgs {
     /// Returns the model of all rows.
     fn spec(&self) -> ModelSpec {
         self.model.clone().unwrap_or_else(|| ModelKind::NETWORK.into())
+    }
+
+    /// Returns tools, starts and form of pushes.
+    fn setup(&self) -> ReferenceSetup {
+        ReferenceSetup::new(self.layout).with_form(match self.form {
+            FormName::Chained => ToolForm::Chained,
+            FormName::Single => ToolForm::Single,
+        })
+    }
+
+    /// Returns the goals: shipped ones of the layout, or drawn ones for single pushes.
+    fn goals(&self, setup: &ReferenceSetup, session: &Session) -> Result<GoalSet, CliError> {
+        match (self.form, self.tasks) {
+            (FormName::Chained, count) => {
+                let goals = GoalSet::shipped(self.layout).map_err(|error| {
+                    CliError::unexpected("cannot read the shipped goals", &error)
+                })?;
+                match count {
+                    Count::All => Ok(goals),
+                    Count::Some(count) if count <= goals.len() => Ok(goals.evenly(count)),
+                    Count::Some(count) => Err(CliError::usage(
+                        format!("this layout has {} goals, not {count}", goals.len()),
+                        "use --tasks all",
+                    )),
+                }
+            }
+            (FormName::Single, Count::Some(count)) => {
+                Ok(session.compute(|| GoalSet::single(setup, self.seed, count)))
+            }
+            (FormName::Single, Count::All) => Err(CliError::usage(
+                "single pushes are drawn at random without end",
+                "give their number: --tasks 16",
+            )),
+        }
     }
 }
 
@@ -110,10 +175,8 @@ impl Suite for ToolsArgs {
         _: &KeepArgs,
         session: &'a Session,
     ) -> Result<Cases<'a, ToolRecord>, CliError> {
-        let layout = self.layout;
-        let setup = ReferenceSetup::new(layout);
-        let goals = GoalSet::shipped(layout)
-            .map_err(|error| CliError::unexpected("cannot read the shipped goals", &error))?;
+        let setup = self.setup();
+        let goals = self.goals(&setup, session)?;
         let spec = self.spec();
         let model = self.out_of_range.load(&spec)?;
         let effort = self.effort;
@@ -125,7 +188,8 @@ impl Suite for ToolsArgs {
             .out_of_range(self.out_of_range.out_of_range())
             .build();
         let mut settings = json!({
-            "layout": layout,
+            "form": setup.form,
+            "layout": self.layout,
             "goals": value_digest(&goals)?,
             "planner": format!("effort {effort} with {planned}"),
             "budget": planner.settings(),

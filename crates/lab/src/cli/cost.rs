@@ -25,7 +25,8 @@ use crate::report::{cost_document, crowd_cost_document, equation_document, far_d
 #[derive(Args, Debug)]
 #[command(
     after_help = "There are no shards, because only times on the same machine can be compared. The \
-measurement takes a few minutes at most."
+measurement takes a few minutes at most. `crates/lab/benches/cost.py --help` describes the paired \
+comparison of two versions of `pushplan solve`: cost, statuses, and robustness of the plans."
 )]
 pub struct CostArgs {
     #[command(flatten)]

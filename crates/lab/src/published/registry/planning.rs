@@ -1,7 +1,7 @@
 //! Tables of plans.
 
 use super::super::table::{ALL, Published, table};
-use super::inputs::{PLANS, PUSHES, RUNS};
+use super::inputs::{PLANS, RUNS};
 
 /// Results of tool choices.
 const CHOICES: &[&str] = &["choice", "2-D", "3-D", "largest", "≤ 5 cm#1", "pushes"];
@@ -36,17 +36,21 @@ pub const TABLES: &[Published] = &[
             ("", ALL, &[" pass"]),
         ]),
     table("tool-choice", "tool-choice.md", (10, 118, "tasks"), PLANS,
-        "pushplan bench tools", &[
+        "pushplan bench tools --tasks all", &[
             ("All tool poses together", CHOICES, ALL),
             ("Each tool pose alone", &["tool, choice", "3-D", "≤ 5 cm#1", "pushes"],
             &[", planned"]),
         ]),
     table("tool-choice-scattered", "tool-choice-scattered.md", (10, 142, "tasks"), PLANS,
-        "pushplan bench tools --layout scattered", &[
+        "pushplan bench tools --layout scattered --tasks all", &[
             ("All tool poses together", CHOICES, ALL),
         ]),
-    table("tool-choice-single", "tool-choice-scattered.md", (10, 20000, "tasks"), PUSHES,
-        "pushplan bench tools --form single --tasks 20000", &[]),
+    table("tool-choice-single", "tool-choice-scattered.md", (2, 48, "tasks"), PLANS,
+        "pushplan bench tools --form single --tasks 48", &[
+            ("All tool poses together", CHOICES, ALL),
+            ("Each tool pose alone", &["tool, choice", "3-D", "≤ 5 cm#1", "pushes"],
+            &[", oracle", ", planned"]),
+        ]),
     table("refinement", "refinement.md", (8, 200, "tasks"), PLANS,
         "pushplan-lab refinement --model network", &[
             ("", &["plans", "solved", "on all supports", "predicted", "2-D", "3-D", "median", "p95",
