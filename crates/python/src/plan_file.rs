@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use pushplan::files::PlanFile;
-use pushplan::planning::{ActionError, ManualPush, manual_plan};
 use pushplan::outcomes::{VerifySettings, rule_violations};
+use pushplan::planning::{ActionError, ManualPush, manual_plan};
 use pushplan::{RankedPlan, Task, Tool, Verdict, Verifier};
 use pushplan::{
     outcome::Warning,

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use pushplan::progress::Until;
 use pushplan::Situation;
 use pushplan::outcomes::VerifySettings;
+use pushplan::progress::Until;
 use pushplan::{Task, Verifier};
 use pyo3::prelude::*;
 
