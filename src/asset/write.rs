@@ -39,9 +39,8 @@ pub fn write_atomic(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), Faults> 
 
 /// Removes the name of the temporary file from an error.
 fn plain(error: Error) -> Error {
-    let cause = error.get_ref().and_then(|named| named.source()).map(ToString::to_string);
-    match cause {
-        Some(cause) => Error::new(error.kind(), cause),
+    match error.to_string().split_once(" at path ") {
+        Some((cause, _)) => Error::new(error.kind(), cause),
         None => error,
     }
 }

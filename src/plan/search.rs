@@ -6,6 +6,8 @@
 //! lower index, so that a search is deterministic on any machine. [`variants`] are searches for
 //! other kinds of plans.
 
+mod continuation;
+mod gate;
 mod variants;
 
 use std::sync::Arc;
@@ -15,11 +17,11 @@ use rayon::prelude::*;
 use crate::progress::Progress;
 use crate::{
     outcome::{Record, Trajectory},
-    scene::{Situation, State},
-    task::{Job, Push, PushForm, ToolMotion},
+    scene::Situation,
+    task::{Job, PushForm, ToolMotion},
 };
 
-use super::beam::{Stop, choose};
+use super::beam::Stop;
 use super::cost_to_go::CostToGo;
 use super::enumerate::{Extension, Grips, Resolution, by_promise, extensions};
 use super::node::Node;
@@ -28,21 +30,14 @@ use super::rollouts::{single_push, stops};
 use super::score::{final_score, finite_score, is_blocked};
 use super::scored::Scores;
 use super::statistics::SearchStatistics;
-use super::uncertainty::{Uncertainty, room};
+use super::uncertainty::Uncertainty;
 use super::workspace::MIN_LENGTH;
-use super::{Candidate, Rollouts, ScoredPush, SearchResult, Workspace, kinds};
+use super::{Candidate, Rollouts, ScoredPush, SearchResult, Workspace};
+use gate::Gate;
 
 /// Number of rollouts per batch: enough for every thread, and few enough that their recorded frames
 /// stay in the cache.
 const BATCH: usize = 256;
-
-/// Share of a level's pushes in a batch, and least number. A search ends when [`QUIET`] consecutive
-/// batches have not changed the best kinds.
-const GATE: (f64, usize) = (0.125, 16);
-
-/// Number of batches without a change of the best kinds that end a level. In order of promise, the
-/// eight best kinds are found after 14 % of the rollouts in the median.
-const QUIET: usize = 2;
 
 /// Number of frames between the stops offered to the beam, in addition to the best and last stop.
 const BEAM_STRIDE: usize = 5;
@@ -215,14 +210,12 @@ impl<'a> Search<'a> {
         self.statistics.beyond_budget += list.len() - order.len();
         let mut found: Vec<(usize, SearchResult)> = Vec::new();
         let mut offers = Vec::new();
-        let (mut best, mut quiet, mut done) = (Vec::new(), 0, 0);
-        let size = match self.workspace.is_placed() {
-            true => ((GATE.0 * order.len() as f64) as usize).clamp(GATE.1, BATCH),
-            // The tree of chained pushes is kept whole.
-            false => BATCH,
-        };
+        let mut done = 0;
+        // The tree of chained pushes is kept whole.
+        let mut gate = self.workspace.is_placed().then(|| Gate::new(self.settings.kinds));
+        let size = gate.as_ref().map_or(BATCH, |_| Gate::batch(order.len()).min(BATCH));
         for batch in order.chunks(size) {
-            if progress.cancelled() || (quiet >= QUIET && self.workspace.is_placed()) {
+            if progress.cancelled() || gate.as_ref().is_some_and(Gate::is_closed) {
                 break;
             }
             progress.update(done as u64, order.len() as u64);
@@ -230,10 +223,9 @@ impl<'a> Search<'a> {
             done += batch.len();
             // Equal scores are in the order of enumeration.
             found.sort_by(|a, b| a.1.score.total_cmp(&b.1.score).then(a.0.cmp(&b.0)));
-            let now = self.best_kinds(&found);
-            let same = now.len() == self.settings.kinds && now == best;
-            quiet = if same { quiet + 1 } else { 0 };
-            best = now;
+            if let Some(gate) = &mut gate {
+                gate.look(&found);
+            }
         }
         progress.update(order.len() as u64, order.len() as u64);
         self.depth += 1;
@@ -243,12 +235,6 @@ impl<'a> Search<'a> {
         self.ends = if stopped { Default::default() } else { (list, offers) };
         found.truncate(self.settings.kept);
         found.into_iter().map(|(_, one)| one).collect()
-    }
-
-    /// Returns the indices of the best pushes of different kinds.
-    fn best_kinds(&self, found: &[(usize, SearchResult)]) -> Vec<usize> {
-        let results: Vec<SearchResult> = found.iter().map(|(_, one)| one.clone()).collect();
-        kinds(&results, self.settings.kinds).into_iter().map(|k| found[k].0).collect()
     }
 
     /// Rolls out the pushes `batch` of `list`. Returns the resulting candidates with their indices,
@@ -366,80 +352,5 @@ impl<'a> Search<'a> {
             offers.extend(cheapest);
         }
         (best.0.is_finite().then_some(best), offers)
-    }
-
-    /// Returns the nodes of the next level: the chosen stops, rolled out exactly if they are early.
-    fn continue_from(
-        &self,
-        rollouts: &mut Rollouts,
-        list: &[Extension],
-        offers: Vec<Stop>,
-    ) -> Vec<Node> {
-        // A tree of chained pushes is small and its branches share their beginnings. It is kept
-        // whole while the budget allows.
-        let ways = self.workspace.task.pushes.directions.headings().len();
-        let whole = !self.workspace.is_placed() && offers.len() * ways <= self.settings.rollouts;
-        let chosen = choose(offers, if whole { None } else { Some(self.settings.beam) });
-        let shorter = |stop: &Stop| Extension {
-            push: Push { length: stop.length, ..list[stop.extension].push },
-            ..list[stop.extension].clone()
-        };
-        let jobs: Vec<_> = chosen
-            .iter()
-            .filter(|stop| stop.known.is_none())
-            .map(|stop| self.job(&shorter(stop)))
-            .collect();
-        let mut outcomes = rollouts.run(&jobs, Record::Outcome).into_iter();
-        let mut nodes = Vec::with_capacity(chosen.len());
-        for stop in chosen {
-            let extension = shorter(&stop);
-            let state = match stop.known {
-                Some(state) => Some(state),
-                None => outcomes
-                    .next()
-                    .and_then(|trajectory| trajectory.frames.into_iter().next_back())
-                    .map(|frame| frame.state),
-            };
-            if let Some(state) = state.filter(State::is_finite) {
-                nodes.push((
-                    extension.clone(),
-                    Node {
-                        candidate: Some(self.candidate(&extension, stop.length)),
-                        state,
-                        end: Some(extension.push.end()),
-                        others: Vec::new(),
-                        room: 0.0,
-                    },
-                ));
-            }
-        }
-        self.with_room(rollouts, nodes)
-    }
-
-    /// Returns the nodes, each with the object's position uncertainty after its extension.
-    fn with_room(&self, rollouts: &mut Rollouts, nodes: Vec<(Extension, Node)>) -> Vec<Node> {
-        // A chained push starts at the end of the previous one, wherever the object is.
-        if !self.workspace.is_placed() {
-            return nodes.into_iter().map(|(_, node)| node).collect();
-        }
-        let jobs: Vec<Job> = nodes
-            .iter()
-            .flat_map(|(extension, _)| {
-                let others = &self.nodes[extension.node].others;
-                self.spread.jobs(&self.motion(extension), others)
-            })
-            .collect();
-        let mut ends = rollouts.run(&jobs, Record::Outcome).into_iter();
-        let scene = &self.situation.scene;
-        let finish = |(extension, mut node): (Extension, Node)| {
-            let count = self.nodes[extension.node].others.len();
-            node.others = ends.by_ref().take(count).map(|end| end.outcome().clone()).collect();
-            let error = self.settings.model_error;
-            let movers = self.field.movers(&node.state).into_iter();
-            let rooms = movers.map(|k| room(scene, k, &node.state, &node.others, error));
-            node.room = rooms.fold(0.0, f64::max);
-            node
-        };
-        nodes.into_iter().map(finish).collect()
     }
 }

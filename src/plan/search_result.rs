@@ -3,7 +3,7 @@
 use super::Candidate;
 
 /// Candidate with its score from the search.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SearchResult {
     /// The candidate, with its last push ended at the best stop.
     pub candidate: Candidate,

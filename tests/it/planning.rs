@@ -8,7 +8,7 @@ use pushplan::effect::Simulated;
 use pushplan::geometry::{Pose, Shape, Vector, clearance, travel_to_contact};
 use pushplan::plan::{
     Candidate, CandidatePush, Infeasible, RefineSettings, RefineStatistics, Rollouts, STAND_OFF,
-    Search, SearchSettings, Start, Workspace, evaluate, refine,
+    Search, SearchResult, SearchSettings, Start, Workspace, evaluate, kinds, refine,
 };
 use pushplan::progress::NoProgress;
 use pushplan::sim::Simulator;
@@ -288,6 +288,30 @@ fn a_search_finds_the_same_for_any_number_of_threads_and_within_its_budget() {
         statistics.considered,
         refused + statistics.repeated + statistics.beyond_budget + 80
     );
+}
+
+#[test]
+fn a_level_that_ends_early_has_the_same_best_kinds_and_the_same_next_level() {
+    let tools = [stick(), hook()];
+    let mut task = task(can(0.5, 0.05), [0.4, 0.15]);
+    task.pushes.max_count = 2;
+    let run = |kinds: usize| {
+        let model = planar();
+        let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
+        let settings = SearchSettings { kinds, kept: 1000, ..SETTINGS };
+        let mut search = Search::new(workspace(&task, &tools), rollouts.situation(), settings);
+        let first = search.deepen(&mut rollouts, &NoProgress);
+        let used = search.statistics().rollouts;
+        let second = search.deepen(&mut rollouts, &NoProgress);
+        (first, used, second)
+    };
+    let (early, whole) = (run(8), run(usize::MAX));
+    let best = |found: &[SearchResult]| -> Vec<SearchResult> {
+        kinds(found, 8).into_iter().map(|k| found[k].clone()).collect()
+    };
+    assert_eq!(best(&early.0), best(&whole.0));
+    assert!(early.1 < whole.1 && early.0.len() < whole.0.len(), "{} {}", early.1, whole.1);
+    assert_eq!(best(&early.2), best(&whole.2));
 }
 
 #[test]
