@@ -180,7 +180,7 @@ pub mod scenes {
 pub mod goals {
     pub use crate::task::demand::{
         Area, AtPlace, Check, Coverage, Demand, Edge, End, Ending, Facing, Fall, Flipped, Gap,
-        Group, InArea, Kind, Lift, Mark, OutOfArea, Outside, Quantity, Raised, ShownGoal,
+        Group, InArea, Kind, Lift, Mark, OutOfArea, Outside, Quantity, Raised, ShownGoal, Swing,
     };
     pub use crate::task::{Aspect, ToolChoice};
 }

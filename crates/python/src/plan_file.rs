@@ -5,11 +5,7 @@ use std::sync::Arc;
 use pushplan::files::PlanFile;
 use pushplan::outcomes::{VerifySettings, rule_violations};
 use pushplan::planning::{ActionError, ManualPush, manual_plan};
-use pushplan::{RankedPlan, Task, Tool, Verdict, Verifier};
-use pushplan::{
-    outcome::Warning,
-    scene::{Situation, TableFit},
-};
+use pushplan::{RankedPlan, Situation, TableFit, Task, Tool, Verdict, Verifier, Warning};
 use pushplan_report::TaskSource;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;

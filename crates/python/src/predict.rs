@@ -3,9 +3,8 @@
 use std::sync::Arc;
 
 use pushplan::files::PlanFile;
-use pushplan::{EffectModel, models::Fallback};
-use pushplan::{Job, Pose, Record, Simulator, Trajectory};
-use pushplan::{outcome::Warning, scene::ModelKind};
+use pushplan::models::{Fallback, ModelKind};
+use pushplan::{EffectModel, Job, Pose, Record, Simulator, Trajectory, Warning};
 use pyo3::prelude::*;
 
 use crate::plan::PyPlan;
