@@ -34,7 +34,7 @@ pub const CORRECTED: usize = 5;
 /// that is only a path ending in `.safetensors` is short for `network,weights=` and that file.
 ///
 /// ```
-/// use pushplan::models::{ModelKind, ModelSpec};
+/// use pushplan::{ModelSpec, models::ModelKind};
 ///
 /// let spec: ModelSpec = "prior,up-to=2|planar,step=1/120".parse()?;
 /// let fallback: ModelSpec = "planar,step=1/120".parse()?;

@@ -287,6 +287,7 @@ mod tests {
         };
         assert_eq!((wedges(&facing), wedges(&facing.looking_like(&square))), (1, 4));
     }
+
     #[test]
     fn the_goal_of_a_door_is_a_sector_about_its_hinge_with_the_way_of_its_far_end() {
         // A door of 0.3 m along x, hinged at its left end, that opens by a quarter turn.
@@ -302,12 +303,17 @@ mod tests {
         goal(&mut svg, &view, &wanted.shown(&scene));
         let svg = svg.finish();
         let [at, end] = [hinge, hinge + Vector::new(0.0, 0.3f64.hypot(0.01))].map(|p| view.map(p));
-        let circle = format!(r#"<circle cx="{:.2}" cy="{:.2}" r="4""#, at.x, at.y);
+        let number = |value: f64| {
+            format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned()
+        };
+        let [hinge, end] = [at, end].map(|p| [number(p.x), number(p.y)]);
+        let circle = format!(r#"<circle cx="{}" cy="{}" r="4""#, hinge[0], hinge[1]);
         assert!(svg.contains(&circle), "{svg}");
         // The sector begins at the hinge, and the way ends at the far end's wanted position.
-        assert!(svg.contains(&format!(r#"<polygon points="{:.2},{:.2} "#, at.x, at.y)), "{svg}");
+        let sector = format!(r#"<polygon points="{} "#, hinge.join(","));
+        assert!(svg.contains(&sector), "{svg}");
         let way = svg.split("<polyline points=\"").nth(1).and_then(|rest| rest.split('"').next());
         let last = way.and_then(|points| points.split(' ').next_back());
-        assert_eq!(last, Some(&*format!("{:.2},{:.2}", end.x, end.y)), "{svg}");
+        assert_eq!(last, Some(&*end.join(",")), "{svg}");
     }
 }
