@@ -55,7 +55,8 @@ pub struct SearchSettings {
     pub rollouts: usize,
     /// Number of scored candidates kept.
     pub kept: usize,
-    /// Number of best kinds of candidates that must be certain before a level ends.
+    /// Number of best kinds of candidates that must be certain before a level ends. A level has
+    /// fewer kinds than the largest number, with which it never ends early.
     pub kinds: usize,
     /// Occasional error of the effect model, metres. Later pushes keep this additional clearance.
     pub model_error: f64,

@@ -12,7 +12,7 @@ use crate::solve::solving::{Batch, Strategy};
 const HARDENING: u64 = 1 << 14;
 
 /// Maximum number of rollouts for each one of the search.
-const ROLLOUTS: usize = 3;
+const ROLLOUTS: usize = 10;
 
 /// Strategy that varies the results of the last search once.
 pub(super) struct Harden;
