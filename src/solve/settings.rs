@@ -140,8 +140,8 @@ impl Settings {
             rollouts: self.search_rollouts,
             // Variants of one kind have close ranks; this number suffices to get past them.
             kept: self.refined.saturating_mul(64),
-            // With all budgets a level is rolled out whole: in two of 300 random tasks the plan that
-            // works is not of the kinds that come first.
+            // With all budgets a level is rolled out whole: in two of 300 random tasks the plan
+            // that works is not of the kinds that come first.
             kinds: if self.refined <= GATED { self.refined } else { usize::MAX },
             model_error,
         }
