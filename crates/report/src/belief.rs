@@ -80,7 +80,8 @@ pub fn belief_document(title: &str, belief: &Belief, names: &[&str], ranges: &[S
     Document { title, sections, json, ..Document::default() }
 }
 
-/// Returns the reason why a recording with so many objects and near pairs holds no joint to infer.
+/// Returns a note if a recording with these numbers of objects and of near pairs holds no joint to
+/// infer.
 fn nothing_to_infer(objects: usize, pairs: usize) -> Option<String> {
     let why = match objects {
         _ if pairs > 0 => return None,
