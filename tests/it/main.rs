@@ -27,6 +27,7 @@ mod fitting;
 mod fixtures;
 mod formats;
 mod gaps;
+mod goal_drawings;
 mod group_goals;
 mod in_motion;
 #[cfg(unix)]

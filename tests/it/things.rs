@@ -1,5 +1,6 @@
 //! Compound objects: one name, one pose, one mass.
 
+use crate::program::{self, succeed};
 use pushplan::{EffectModel, Pose, Simulated, Simulator, Task};
 use pushplan::{
     outcome::Record,
@@ -75,6 +76,23 @@ fn errors_of_parts_have_their_locations() {
     assert!(text.contains("`can` overlaps `mug/handle`"), "{text}");
     let text = faults("name: handle", "name: \"2\"");
     assert!(text.contains("two parts are called `2`"), "{text}");
+}
+
+#[test]
+fn warnings_name_the_whole_object() {
+    let folder = tempfile::TempDir::new().expect("a folder");
+    let file = folder.path().join("mug.yaml");
+    // Both parts and the whole are outside the range of friction, the handle alone of sizes.
+    let heavy = MUG.replace("friction: 0.4\n      position", "friction: 1.95\n      position");
+    std::fs::write(&file, heavy.replace("0.03, 0.015", "0.03, 0.005")).expect("a file");
+    let output = succeed(&format!("check {}", file.display()));
+    let warnings = program::stderr(&output) + &String::from_utf8_lossy(&output.stdout);
+    let of_mug = |word: &str| {
+        let lines = warnings.lines().filter(|line| line.contains("mug") && line.contains(word));
+        lines.count()
+    };
+    assert_eq!((of_mug("friction"), of_mug("mug/")), (1, 0), "{warnings}");
+    assert!(of_mug("0.005") > 0, "{warnings}");
 }
 
 /// A bar cut in two also has its support cut in two; everything else is unchanged.
