@@ -120,6 +120,8 @@ fn checks_and_benchmarks_satisfy_their_schemas() {
     satisfies("check", &mixed);
     assert_eq!([&mixed["files"][0]["valid"], &mixed["files"][1]["valid"]], [true, false]);
     satisfies("bench-tasks", &document("bench tasks tasks/pull-back.yaml --json", &[0]));
+    let line = "bench tools --form single --tasks 1 --json";
+    satisfies("bench-tools", &document(line, &[0]));
     let folder = TempDir::new().expect("a folder");
     let heavy = folder.path().join("heavy.yaml");
     let text =
