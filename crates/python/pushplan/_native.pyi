@@ -66,46 +66,26 @@ class TableFit:
     """
     @staticmethod
     def load(path: _Path) -> TableFit:
-        """staticmethod(function) -> method
+        """Reads a table fit.
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        path : str or path-like
+            File that `save` or the command `pushplan fit --save-fit` wrote.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        TableFit
+            Table fit of the file.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Raises
+        ------
+        FileError
+            If the file is unreadable or invalid.
         """
     @staticmethod
     def parse(text: str) -> TableFit:
-        """staticmethod(function) -> method
-
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
-        """
+        """Restores a table fit from the text that pickle stores."""
     def save(self, path: _Path) -> None:
         """Writes the table fit (JSON).
 
@@ -156,66 +136,78 @@ class Tool:
     def __new__(cls, *_arguments: Never, **_named: Never) -> Tool: ...
     @staticmethod
     def load(path: _Path) -> Tool:
-        """staticmethod(function) -> method
+        """Reads a tool file (YAML).
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        path : str or path-like
+            Tool file.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        Tool
+            Tool of the file.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
+        Raises
+        ------
+        FileError
+            If the file is unreadable or invalid; it lists all faults.
 
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Examples
+        --------
+        >>> tool = pushplan.Tool.load("my-hook.yaml")
         """
     @staticmethod
     def parse(text: str, name: str = "tool") -> Tool:
-        """staticmethod(function) -> method
+        """Reads the text of a tool file.
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        text : str
+            Content of the file (YAML).
+        name : str, default "tool"
+            File name in error messages.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        Tool
+            Tool of the text.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
+        Raises
+        ------
+        FileError
+            If the text is invalid; it lists all faults.
 
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Examples
+        --------
+        >>> part = "{name: bar, size: [0.2, 0.04, 0.05], position: [0.1, 0]}"
+        >>> tool = pushplan.Tool.parse(f"{{name: rod, friction: 0.4, parts: [{part}]}}")
         """
     @staticmethod
     def from_dict(mapping: ToolFile) -> Tool:
-        """staticmethod(function) -> method
+        """Builds a tool from a mapping with the keys of a tool file.
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        mapping : pushplan.files.ToolFile
+            Mapping with lengths in metres and angles in degrees. NumPy arrays count as lists.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        Tool
+            Tool of the mapping.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
+        Raises
+        ------
+        FileError
+            If a value is invalid; it lists all faults with their keys.
+        TypeError
+            If the mapping contains other types than a file.
 
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Examples
+        --------
+        >>> bar = {"name": "bar", "size": [0.2, 0.04, 0.05], "position": [0.1, 0]}
+        >>> tool = pushplan.Tool.from_dict({"name": "rod", "friction": 0.4, "parts": [bar]})
         """
     @property
     def name(self) -> str:
@@ -250,66 +242,58 @@ class ToolLibrary:
     def __new__(cls, *_arguments: Never, **_named: Never) -> ToolLibrary: ...
     @staticmethod
     def shipped() -> ToolLibrary:
-        """staticmethod(function) -> method
+        """Returns the tools shipped with the package.
 
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Examples
+        --------
+        >>> hook = pushplan.ToolLibrary.shipped()["hook"]
         """
     @staticmethod
     def load(folder: _Path) -> ToolLibrary:
-        """staticmethod(function) -> method
+        """Reads every tool file (`.yaml`, `.yml`) of a folder.
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        folder : str or path-like
+            Folder with one file or more.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        ToolLibrary
+            Tools of the folder.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
+        Raises
+        ------
+        FileError
+            If a file is unreadable or invalid; it lists all faults of all files.
 
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Examples
+        --------
+        >>> tools = pushplan.ToolLibrary.load("my-tools")
         """
     @staticmethod
     def of(tools: Sequence[Tool]) -> ToolLibrary:
-        """staticmethod(function) -> method
+        """Returns a library of the given tools.
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        tools : sequence of Tool
+            Tools with different names.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        ToolLibrary
+            Library of these tools only.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
+        Raises
+        ------
+        FileError
+            If two tools have the same name.
 
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Examples
+        --------
+        >>> shipped = pushplan.ToolLibrary.shipped()
+        >>> few = pushplan.ToolLibrary.of([shipped["hook"], shipped["stick"]])
         """
     def with_tool(self, tool: Tool) -> ToolLibrary:
         """Returns a library that also contains a tool, in place of a tool of the same name.
@@ -372,108 +356,104 @@ class Task:
     def __new__(cls, *_arguments: Never, **_named: Never) -> Task: ...
     @staticmethod
     def load(path: _Path, tools: ToolLibrary | None = None) -> Task:
-        """staticmethod(function) -> method
+        """Reads a task file (YAML).
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        path : str or path-like
+            Task file.
+        tools : ToolLibrary, optional
+            Tools to check the names of the task against; by default names are not checked.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        Task
+            Task of the file.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
+        Raises
+        ------
+        FileError
+            If the file is unreadable or invalid, or names a tool that `tools` lacks. It lists all
+            faults.
 
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Examples
+        --------
+        >>> task = pushplan.Task.load("my-task.yaml")
         """
     @staticmethod
     def example(name: str, tools: ToolLibrary | None = None) -> Task:
-        """staticmethod(function) -> method
+        """Returns a task shipped with the package.
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        name : str
+            Name of the task, one of `Task.examples()`.
+        tools : ToolLibrary, optional
+            Tools to check the names of the task against; by default names are not checked.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        Task
+            Shipped task.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
+        Raises
+        ------
+        FileError
+            If no shipped task has this name, or the task names a tool that `tools` lacks.
 
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Examples
+        --------
+        >>> task = pushplan.Task.example("pull-back-behind-wall")
         """
     @staticmethod
     def examples() -> list[str]:
-        """staticmethod(function) -> method
-
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
-        """
+        """Returns the names of the shipped tasks."""
     @staticmethod
     def parse(text: str, name: str = "task") -> Task:
-        """staticmethod(function) -> method
+        """Reads the text of a task file.
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        text : str
+            Content of the file (YAML).
+        name : str, default "task"
+            File name in error messages; also the name of a task that states none.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        Task
+            Task of the text.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Raises
+        ------
+        FileError
+            If the text is invalid; it lists all faults.
         """
     @staticmethod
     def from_dict(mapping: TaskFile) -> Task:
-        """staticmethod(function) -> method
+        """Builds a task from a mapping with the keys of a task file.
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        mapping : pushplan.files.TaskFile
+            Mapping with lengths in metres, masses in kilograms and angles in degrees. NumPy arrays
+            count as lists.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        Task
+            Task of the mapping.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
+        Raises
+        ------
+        FileError
+            If a value is invalid; it lists all faults with their keys.
+        TypeError
+            If the mapping contains other types than a file.
 
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Examples
+        --------
+        >>> stricter = pushplan.Task.from_dict({**task.to_dict(), "robustness": 0.9})
         """
     @property
     def name(self) -> str:
@@ -640,24 +620,35 @@ class Push:
         length: float | None = None,
         speed: float | None = None,
     ) -> Push:
-        """staticmethod(function) -> method
+        """Creates a push that starts just before an object.
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        object : str
+            Name of the object.
+        direction : float
+            Direction of travel, radians from world +x, -4 pi to 4 pi.
+        offset : float, default 0
+            Lateral offset of the object's centre from the centre line of the tool's face, metres,
+            positive to the left.
+        length : float, optional
+            Travel, metres; by default the task's.
+        speed : float, optional
+            Speed, m/s; by default the task's.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        Push
+            Push whose start follows from the tool and the pose of the object.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
+        Raises
+        ------
+        TypeError or ValueError
+            If an argument is no number, not finite or out of range.
 
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Examples
+        --------
+        >>> push = pushplan.Push.before("can", math.pi, length=0.15)
         """
     @property
     def start(self) -> tuple[float, float] | None:
@@ -724,25 +715,7 @@ class Trajectory:
     def __len__(self) -> int: ...
     @staticmethod
     def parse(text: str) -> Trajectory:
-        """staticmethod(function) -> method
-
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
-        """
+        """Restores a trajectory from the text that pickle stores."""
     def __eq__(self, other: object, /) -> bool: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
 
@@ -756,45 +729,48 @@ class Plan:
     def __new__(cls, *_arguments: Never, **_named: Never) -> Plan: ...
     @staticmethod
     def load(path: _Path) -> Plan:
-        """staticmethod(function) -> method
+        """Reads a plan file (JSON).
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        path : str or path-like
+            Plan file, written by `Plan.save` or by the command `pushplan solve`.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        Plan
+            Plan of the file, with its verdict.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
+        Raises
+        ------
+        FileError
+            If the file is unreadable or invalid; it lists all faults.
 
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Examples
+        --------
+        >>> plan.save("best.plan.json")
+        >>> verdict = pushplan.verify(pushplan.Plan.load("best.plan.json"))
         """
     @staticmethod
     def parse(text: str, name: str = "plan") -> Plan:
-        """staticmethod(function) -> method
+        """Reads the text of a plan file.
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        text : str
+            Content of the file (JSON).
+        name : str, default "plan"
+            File name in error messages.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        Plan
+            Plan of the text, with its verdict.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Raises
+        ------
+        FileError
+            If the text is invalid; it lists all faults.
         """
     @staticmethod
     def of(
@@ -805,24 +781,39 @@ class Plan:
         grip_yaw: float | None = None,
         tools: ToolLibrary | None = None,
     ) -> Plan:
-        """staticmethod(function) -> method
+        """Builds a plan from given pushes, without a search.
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        task : Task
+            Task of the plan.
+        tool : Tool or str
+            Tool, or the name of a tool in `tools`.
+        pushes : sequence of Push
+            Pushes, in order. A push that violates a rule of the task is allowed; see `violations`.
+        grip_yaw : float, optional
+            Rotation of the end effector against world +x, radians, -4 pi to 4 pi; by default the
+            first grip yaw of the task with which the pushes are feasible.
+        tools : ToolLibrary, optional
+            Tools for a name in `tool`; by default the tools shipped with the package.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        Plan
+            Plan without prediction and verdict.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
+        Raises
+        ------
+        ActionError
+            If a push is infeasible, for example because the object is unknown; `UnknownToolError`
+            for an unknown name in `tool`.
+        TypeError or ValueError
+            If another argument has an invalid type or value.
 
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Examples
+        --------
+        >>> push = pushplan.Push.before("can", math.pi, length=0.15)
+        >>> plan = pushplan.Plan.of(task, "l-hook", [push])
         """
     @property
     def task(self) -> Task:
@@ -983,25 +974,7 @@ class Verdict:
     def _repr_html_(self) -> str: ...
     @staticmethod
     def parse(text: str) -> Verdict:
-        """staticmethod(function) -> method
-
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
-        """
+        """Restores a verdict from the text that pickle stores."""
     def __eq__(self, other: object, /) -> bool: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
 
@@ -1054,25 +1027,7 @@ class Solution:
     def _repr_html_(self) -> str: ...
     @staticmethod
     def parse(text: str) -> Solution:
-        """staticmethod(function) -> method
-
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
-        """
+        """Restores a solution from the text that pickle stores."""
     def __eq__(self, other: object, /) -> bool: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
 
@@ -1144,66 +1099,68 @@ class Recording:
     def __new__(cls, *_arguments: Never, **_named: Never) -> Recording: ...
     @staticmethod
     def load(path: _Path) -> Recording:
-        """staticmethod(function) -> method
+        """Reads a recording file (YAML, or JSON if the name ends in `.json`).
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        path : str or path-like
+            Recording file.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        Recording
+            Recording of the file.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
+        Raises
+        ------
+        FileError
+            If the file is unreadable or invalid; it lists all faults.
 
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Examples
+        --------
+        >>> recording = pushplan.Recording.load("pushes.json")
         """
     @staticmethod
     def parse(text: str, name: str = "recording") -> Recording:
-        """staticmethod(function) -> method
+        """Reads the text of a recording file.
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        text : str
+            Content of the file (YAML, or JSON if `name` ends in `.json`).
+        name : str, default "recording"
+            File name in error messages.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        Recording
+            Recording of the text.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Raises
+        ------
+        FileError
+            If the text is invalid; it lists all faults.
         """
     @staticmethod
     def from_dict(mapping: dict[str, Any]) -> Recording:
-        """staticmethod(function) -> method
+        """Builds a recording from a mapping with the keys of a recording file.
 
-        Convert a function to be a static method.
+        Parameters
+        ----------
+        mapping : dict
+            Mapping with the keys of `recording_schema`. NumPy arrays count as lists.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Returns
+        -------
+        Recording
+            Recording of the mapping.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Raises
+        ------
+        FileError
+            If a value is invalid; it lists all faults with their keys.
+        TypeError
+            If the mapping contains other types than a file.
         """
     @property
     def name(self) -> str:
@@ -1277,25 +1234,7 @@ class Run:
     """Record of a closed-loop run: observations, beliefs, plans and pushes."""
     @staticmethod
     def parse(text: str) -> Run:
-        """staticmethod(function) -> method
-
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
-        """
+        """Restores a run from the text that pickle stores."""
     def __eq__(self, other: object, /) -> bool: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
     @property

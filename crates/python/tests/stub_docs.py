@@ -46,7 +46,10 @@ def nodes_in(tree: ast.Module) -> Iterator[tuple[Node, str]]:
         yield node, found.__doc__
         for inner in node.body if isinstance(node, ast.ClassDef) else []:
             if isinstance(inner, ast.FunctionDef) and not inner.name.startswith("_"):
-                yield inner, inspect.getattr_static(found, inner.name).__doc__
+                member = inspect.getattr_static(found, inner.name)
+                # A static method of the compiled module has the docstring of its type.
+                bound = isinstance(member, (staticmethod, classmethod))
+                yield inner, (getattr(found, inner.name) if bound else member).__doc__
 
 
 def docstring(doc: str, indent: str) -> list[str]:

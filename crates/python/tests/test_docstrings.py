@@ -47,6 +47,7 @@ EXAMPLES = [name for name, found in CALLED.items() if ">>>" in (found.__doc__ or
 def test_stubs_have_the_docstrings_of_the_module() -> None:
     text = STUBS.read_text()
     assert documented(text) == text, "run `python crates/python/tests/stub_docs.py`"
+    assert "(function) -> method" not in text, "the docstring of a type"
 
 
 @pytest.mark.parametrize("name", CALLED)
