@@ -4,10 +4,11 @@ The environments are unchanged: the player reads the public object-centric state
 actions. Their worlds have viscous damping instead of table friction. A slow push moves an object in
 the direction in which damping resists least, as on a table, and only the ratio of the resistances
 to rotation and translation matters. It is the support of the object in the task; `fit` estimates it
-with the friction of the finger from twenty own pushes in other episodes.
+with the friction of the finger from twenty own pushes of a T in other episodes.
 
     pip install pushplan kindergarden
     python examples/kinder_2d.py --seeds 1000 1050
+    python examples/kinder_2d.py DynPushPullHook2D-o5 --seeds 1000 1050
 """
 
 import argparse
@@ -16,15 +17,21 @@ import warnings
 from collections.abc import Iterator
 from typing import Any
 
-import gymnasium
 import kinder  # type: ignore[import-not-found,import-untyped,unused-ignore]
 import numpy as np
 import numpy.typing as npt
 import shapely  # type: ignore[import-not-found,import-untyped,unused-ignore]
-from _tee import PIXEL, Board, Floats, Goal, Points, Push, Way, choose, pushes
+from _kinder import Episode, State
+from _kinder_hook import HookGame
+from _tee import PIXEL, Board, Floats, Goal, Way, choose, pushes
 
 import pushplan
 
+#: Environments, each with the maximum number of steps.
+STEPS = {
+    "DynPushT2D-t1": 3000,
+    **{f"DynPushPullHook2D-{variant}": 500 for variant in ("o0", "o1", "o5")},
+}
 #: Pixels in a unit of the environment.
 UNIT = 100.0
 #: Largest change of x and of y in one step, pixels. On its way the finger overshoots by a quarter.
@@ -33,9 +40,12 @@ STEP, OVERSHOOT = 5.0, 0.25
 ACCURACY, TURN = 2.7, np.radians(7.2)
 #: Seeds of the episodes in which pushes are recorded, and number of pushes in each.
 RECORDED, EACH = range(100000, 100004), 5
+#: Support of the blocks: damping of a rectangle acts at its radius of gyration, 1 / sqrt(3) of the
+#: distance of its corners.
+BLOCKS = 0.577
 
 
-def board_of(state: dict[str, dict[str, float]], support: float, friction: float) -> Board:
+def board_of(state: State, support: float, friction: float) -> Board:
     """Returns the board of a T with this support and this friction with the finger."""
     tee, finger = state["tblock"], state["robot"]["radius"] * UNIT
     width, across, along = (
@@ -116,37 +126,8 @@ def two_bars(tee: dict[str, float]) -> dict[str, Any]:
     return {"objects": [bar, stem], "joints": [joint]}
 
 
-def finger_of(state: dict[str, dict[str, float]]) -> dict[str, Any]:
+def finger_of(state: State) -> dict[str, Any]:
     return {"cylinder": {"radius": state["robot"]["radius"] * UNIT * PIXEL, "height": 0.05}}
-
-
-class Episode:
-    """One episode of an environment of KinDER, with its public state."""
-
-    def __init__(self, name: str, seed: int, steps: int) -> None:
-        self.seed, self.most, self.steps, self.done = seed, steps, 0, False
-        self.env = gymnasium.make(name)
-        observation, _ = self.env.reset(seed=seed)
-        self.read(observation)
-
-    def read(self, observation: npt.NDArray[Any]) -> None:
-        space: Any = self.env.observation_space
-        state = space.devectorize(observation)
-        self.state: dict[str, dict[str, float]] = {
-            thing.name: dict(zip(state.type_features[thing.type], map(float, state.data[thing])))
-            for thing in state
-        }
-
-    @property
-    def over(self) -> bool:
-        return self.done or self.steps >= self.most
-
-    def act(self, action: npt.NDArray[np.float64]) -> None:
-        space: Any = self.env.action_space
-        clipped = np.clip(action, space.low, space.high).astype(space.dtype)
-        observation, _, self.done, _, _ = self.env.step(clipped)
-        self.steps += 1
-        self.read(observation)
 
 
 class TeeGame(Episode):
@@ -204,7 +185,7 @@ class TeeGame(Episode):
                 break
 
     def move(self, step: complex) -> None:
-        self.act(np.array([step.real, step.imag]) / UNIT)
+        self.act([step.real / UNIT, step.imag / UNIT])
 
 
 def limited(step: complex) -> complex:
@@ -265,24 +246,33 @@ def frame_of(game: TeeGame, beyond: complex) -> dict[str, Any]:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
-    parser.add_argument("--seeds", type=int, nargs=2, default=[0, 3], metavar=("FROM", "BELOW"))
-    parser.add_argument("--steps", type=int, default=3000, help="maximum number of steps")
+    parser.add_argument("environment", nargs="?", choices=STEPS, default="DynPushT2D-t1")
+    parser.add_argument("--seeds", type=int, nargs=2, default=[0, 2], metavar=("FROM", "BELOW"))
+    parser.add_argument("--steps", type=int, help="maximum number of steps")
     options = parser.parse_args()
     warnings.filterwarnings("ignore", module="gymnasium")
     kinder.register_all_environments()
-    fit = pushplan.fit([one for seed in RECORDED for one in recorded(seed)])
-    print(f"support {fit.support}, friction {fit.friction} from {fit.pushes} pushes")
-    if fit.support is None or fit.friction is None:
-        raise SystemExit("the recorded pushes do not determine support and friction")
-    games = [TeeGame(seed, options.steps, fit.support, fit.friction) for seed in range(*options.seeds)]
-    for game in games:
+    steps = options.steps or STEPS[options.environment]
+    seeds, games = range(*options.seeds), []
+    if options.environment == "DynPushT2D-t1":
+        fit = pushplan.fit([one for seed in RECORDED for one in recorded(seed)])
+        print(f"support {fit.support}, friction {fit.friction} from {fit.pushes} pushes")
+        if fit.support is None or fit.friction is None:
+            raise SystemExit("the recorded pushes do not determine support and friction")
+    for seed in seeds:
+        if options.environment == "DynPushT2D-t1":
+            game: TeeGame | HookGame = TeeGame(seed, steps, fit.support, fit.friction)
+        else:
+            variant = options.environment.split("-")[1]
+            game = HookGame(variant, seed, steps, BLOCKS)
         game.play()
         what = "reached" if game.done else "not reached"
-        print(f"seed {game.seed}: {what} after {game.steps} steps, {game.pushes} pushes")
+        print(f"seed {seed}: {what} after {game.steps} steps, {game.pushes} pushes", flush=True)
+        games.append(game)
     done = [game.steps for game in games if game.done]
-    each = sum(game.seconds for game in games) / sum(game.pushes for game in games)
-    steps = f"median {np.median(done):.0f}, maximum {max(done)} steps" if done else "none"
-    print(f"{len(done)} of {len(games)} reached, {steps}; {each:.2f} s of processor time a push")
+    each = sum(game.seconds for game in games) / max(sum(game.pushes for game in games), 1)
+    most = f"median {np.median(done):.0f}, maximum {max(done)} steps" if done else "none"
+    print(f"{len(done)} of {len(games)} reached, {most}; {each:.2f} s of processor time a push")
 
 
 if __name__ == "__main__":
