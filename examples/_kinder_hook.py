@@ -6,6 +6,7 @@ the tool reaches without touching anything. From these poses some thousand strai
 predicted with all blocks, and the best one is executed up to its best moment.
 """
 
+import itertools
 import time
 from typing import Any, NamedTuple
 
@@ -21,6 +22,7 @@ from scipy.sparse.csgraph import (  # type: ignore[import-not-found,import-untyp
 import pushplan
 
 Floats = npt.NDArray[np.float64]
+Indices = npt.NDArray[np.int64]
 
 #: Metres in the task for a unit of the environment.
 SCALE = 0.2
@@ -40,6 +42,8 @@ SIZE, MIDDLE, HALF = 3.5, 1.75, 0.025
 STROKE, DRAWN, STROKES = 1.2, 16000, 800
 #: Distance at which a block is expected to touch the line, and additional length of its stroke.
 TOUCH, BEYOND = 0.003, 0.05
+#: Distance within which a stroke must come to a block.
+SOON = 0.15
 #: Least motion of blocks for each earlier stroke that did not help.
 STIR = 0.2
 #: Length of the hook between the fingers beyond their middle, and gap of closed fingers.
@@ -56,6 +60,15 @@ class Box(NamedTuple):
     y: float
     along: float
     across: float
+
+
+class Stroke(NamedTuple):
+    """Straight motion from a pose of the lattice, with its predicted value."""
+
+    value: float
+    start: int
+    heading: float
+    length: float
 
 
 def corners(boxes: list[Box], poses: Floats) -> Floats:
@@ -186,9 +199,6 @@ class HookGame(Episode):
         fine[index[near]] = False
         return fine
 
-    def lattice(self, boxes: list[list[Box]], things: Any) -> "Lattice":
-        return Lattice(self, boxes, things)
-
     # The script that takes the hook.
 
     def take(self) -> None:
@@ -257,20 +267,18 @@ class HookGame(Episode):
         thin, span = 2 * HALF * SCALE, SIZE * SCALE
         walls = [("middle", span / 2, MIDDLE * SCALE, span, thin)]
         walls += [("top", span / 2, span + thin / 2, span, thin)]
-        walls += [(name, x, span / 2, thin, span) for name, x in (("a", -thin / 2), ("b", span + thin / 2))]
+        sides = (("left", -thin / 2), ("right", span + thin / 2))
+        walls += [(name, x, span / 2, thin, span) for name, x in sides]
         obstacles = [
             {"name": name, "size": [along, across, 0.01], "position": [x, y]}
             for name, x, y, along, across in walls
         ]
-        pairs = [
-            {"between": [thing["name"], other], "coefficient": 1.0}
-            for thing in objects
-            for other in ("tool",)
-        ]
+        pairs = [{"between": [thing["name"], "tool"], "coefficient": 1.0} for thing in objects]
         scene = {"objects": objects, "obstacles": obstacles, "frictions": pairs}
         goal = {"object": "target-block", "position": [0.35, 0.6], "tolerance": 0.01}
         robot = {"reach": {"min": 0, "max": 2}, "hand": "none", "base": "none"}
-        return pushplan.Task.from_dict({"scene": scene, "robot": robot, "tools": ["hook"], "goal": goal})
+        whole: Any = {"scene": scene, "robot": robot, "tools": ["hook"], "goal": goal}
+        return pushplan.Task.from_dict(whole)
 
     def poses(self) -> Floats:
         """Returns the poses of all blocks."""
@@ -288,7 +296,7 @@ class HookGame(Episode):
             for box in self.tool(arm)
         ]
         joints = [["gripper", "handle"], ["handle", "bar"]]
-        whole = {"name": "hook", "friction": 0.5, "parts": parts, "joints": joints}
+        whole: Any = {"name": "hook", "friction": 0.5, "parts": parts, "joints": joints}
         return pushplan.Tool.from_dict(whole)
 
     def value(self, poses: Floats) -> Floats:
@@ -313,95 +321,113 @@ class HookGame(Episode):
         return found
 
     def stroke(self) -> bool:
-        """Predicts strokes from all free poses and executes the best one."""
+        """Executes the best stroke from a free pose; returns whether there is one."""
+        before = self.poses()
         things = shapely.union_all([block(self.state[name]) for name in self.blocks])
-        tools = [self.tool(arm) for arm in ARMS]
-        lattice = Lattice(self, tools, things)
-        reachable = np.flatnonzero(np.isfinite(lattice.steps))
-        if not len(reachable):
-            return False
-        # Strokes that come near a block soon.
-        starts = lattice.poses[reachable]
-        levels = lattice.level[reachable]
-        drawn = self.draws.choice(16 * len(reachable), min(DRAWN, 16 * len(reachable)), replace=False)
-        of, way = drawn // 16, drawn % 16 * np.pi / 8
-        touched = np.zeros(len(of), bool)
-        shapely.prepare(things)
-        for level, boxes in enumerate(tools):
-            mine = np.flatnonzero(levels[of] == level)
-            ahead = starts[of[mine]] + 0.15 * np.stack(
-                [np.cos(way[mine]), np.sin(way[mine]), np.zeros(len(mine))], axis=1
-            )
-            hook = [box for box in boxes if box.name in ("handle", "bar")]
-            touched[mine] = shapely.intersects(
-                shapely.polygons(corners(hook, ahead)), things
-            ).any(axis=1)
-        able = np.flatnonzero(touched)
-        if not len(able):
-            return False
-        chosen = self.draws.choice(able, min(STROKES, len(able)), replace=False)
-        best = None
-        now = self.poses()
-        scaled = now * np.array([SCALE, SCALE, 1.0])
-        task = self.task()
-        for level, arm in enumerate(ARMS):
-            mine = chosen[levels[of[chosen]] == level]
-            if not len(mine):
-                continue
-            pose, heading = starts[of[mine]], way[mine]
-            rows = np.stack(
-                [
-                    pose[:, 0] * SCALE,
-                    pose[:, 1] * SCALE,
-                    heading,
-                    np.full(len(mine), STROKE * SCALE),
-                    np.full(len(mine), 0.1),
-                ],
-                axis=1,
-            )
-            rolled = pushplan.rollout(
-                task, self.shape(arm), rows, grip_yaw=pose[:, 2], start=scaled, model="prior"
-            )
-            ends = rolled.poses.copy()
-            ends[..., :2] /= SCALE
-            tips = rolled.tool_poses[..., :2] / SCALE
-            gone = np.linalg.norm(tips - pose[:, None, :2], axis=-1)
-            # The base must stay in its half.
-            flat = np.concatenate([tips, np.broadcast_to(pose[:, None, 2:], (*tips.shape[:2], 1))], -1)
-            fine = self.free([], flat.reshape(-1, 3), None, 0.0).reshape(gone.shape)
-            fine = np.logical_and.accumulate(fine, axis=1)
-            value = self.value(ends)
-            walk = lattice.steps[reachable][of[mine]]
-            value = value + COST * (walk[:, None] + gone / STEP)
-            moved = np.abs(ends - now)[..., :2].sum(axis=(-1, -2))
-            value[~fine | (gone < 0.02) | (moved < STIR * self.idle)] = np.inf
-            one, frame = np.unravel_index(np.argmin(value), value.shape)
-            if best is None or value[one, frame] < best[0]:
-                done = self.value(ends[one, frame]) == 0.0
-                length = gone[one, frame] + (BEYOND if done else 0.0)
-                best = (value[one, frame], reachable[of[mine[one]]], heading[one], length)
-        before = float(self.value(now))
+        lattice = Lattice(self, [self.tool(arm) for arm in ARMS], things)
+        best = self.best(lattice, *self.candidates(lattice))
         if best is None:
             return False
-        _, start, heading, length = best
         self.pushes += 1
-        lattice.follow(start)
-        end = self.base + length * np.array([np.cos(heading), np.sin(heading), 0.0])
-        self.move(end)
+        lattice.follow(best.start)
+        way = np.array([np.cos(best.heading), np.sin(best.heading), 0.0])
+        self.move(self.base + best.length * way)
         if not self.over:
             # The environment compares the state before its last step.
             self.act(np.zeros(5))
         # After a stroke that did not help, the next one must move more.
-        gained = before - float(self.value(self.poses()))
+        gained = float(self.value(before) - self.value(self.poses()))
         self.idle = self.idle + 1 if gained < 0.02 else 0
-        if not self.over:
-            if DEBUG:
-                print(f"   stroke {self.pushes}: {before:.3f} -> {best[0]:.3f} predicted, "
-                      f"{float(self.value(self.poses())):.3f}, {self.steps} steps")
         return True
 
+    def candidates(self, lattice: "Lattice") -> tuple[Indices, Floats]:
+        """Returns strokes that come near a block soon: poses of the lattice, and headings."""
+        reachable = np.flatnonzero(np.isfinite(lattice.steps))
+        count = 16 * len(reachable)
+        drawn = self.draws.choice(count, min(DRAWN, count), replace=False)
+        start, heading = reachable[drawn // 16], drawn % 16 * np.pi / 8
+        ahead = np.stack([np.cos(heading), np.sin(heading), np.zeros(len(heading))], axis=1)
+        ahead = lattice.poses[start] + SOON * ahead
+        near = np.zeros(len(start), bool)
+        for level, boxes in enumerate(lattice.boxes):
+            mine = np.flatnonzero(lattice.level[start] == level)
+            hook = [box for box in boxes if box.name in ("handle", "bar")]
+            shapes = shapely.polygons(corners(hook, ahead[mine]))
+            near[mine] = shapely.intersects(shapes, lattice.things).any(axis=1)
+        able = np.flatnonzero(near)
+        chosen = self.draws.choice(able, min(STROKES, len(able)), replace=False)
+        return start[chosen], heading[chosen]
 
-DEBUG = False
+    def best(self, lattice: "Lattice", start: Indices, heading: Floats) -> Stroke | None:
+        """Returns the predicted stroke of the lowest value, up to its best moment."""
+        found: Stroke | None = None
+        now, task = self.poses(), self.task()
+        scaled = now * np.array([SCALE, SCALE, 1.0])
+        for level, arm in enumerate(ARMS):
+            mine = np.flatnonzero(lattice.level[start] == level)
+            if not len(mine):
+                continue
+            pose, ways = lattice.poses[start[mine]], heading[mine]
+            alike = np.ones(len(mine))
+            rows = [
+                pose[:, 0] * SCALE,
+                pose[:, 1] * SCALE,
+                ways,
+                alike * STROKE * SCALE,
+                alike * 0.1,
+            ]
+            rolled = pushplan.rollout(
+                task,
+                self.shape(arm),
+                np.stack(rows, axis=1),
+                grip_yaw=pose[:, 2],
+                start=scaled,
+                model="prior",
+            )
+            ends = rolled.poses / np.array([SCALE, SCALE, 1.0])
+            tips = rolled.tool_poses[..., :2] / SCALE
+            gone = np.linalg.norm(tips - pose[:, None, :2], axis=-1)
+            # The base must stay in its half.
+            inside = self.free([], tips.reshape(-1, 2), None, 0.0).reshape(gone.shape)
+            moved = np.abs(ends - now)[..., :2].sum(axis=(-1, -2))
+            fine = np.logical_and.accumulate(inside, axis=1)
+            fine &= (gone > 0.02) & (moved >= STIR * self.idle)
+            steps = lattice.steps[start[mine], None] + gone / STEP
+            value = np.where(fine, self.value(ends) + COST * steps, np.inf)
+            one, frame = np.unravel_index(np.argmin(value), value.shape)
+            if np.isfinite(value[one, frame]) and (
+                found is None or value[one, frame] < found.value
+            ):
+                touches = float(self.value(ends[one, frame])) == 0.0
+                length = float(gone[one, frame]) + (BEYOND if touches else 0.0)
+                found = Stroke(
+                    float(value[one, frame]), int(start[mine[one]]), float(ways[one]), length
+                )
+        return found
+
+
+def graph_of(free: npt.NDArray[np.bool_]) -> Any:
+    """Returns the graph of free poses ``[arms, columns, rows, headings]`` with steps of the robot.
+
+    Two steps of the robot are one of the lattice, and diagonal steps take as long as straight ones.
+    """
+    number = np.arange(free.size).reshape(free.shape)
+    moves = [(0, *move) for move in itertools.product((-1, 0, 1), repeat=3) if any(move)]
+    tails, heads, costs = [], [], []
+    for move in [*moves, (1, 0, 0, 0), (-1, 0, 0, 0)]:
+        moved = np.roll(number, [-step for step in move], axis=(0, 1, 2, 3))
+        valid = free & free[np.unravel_index(moved, free.shape)]
+        # Headings go round; arms and places end.
+        for axis, step in enumerate(move[:3]):
+            edge = [slice(None)] * 4
+            edge[axis] = slice(-1, None) if step > 0 else slice(0, max(-step, 0))
+            valid[tuple(edge)] = False if step else valid[tuple(edge)]
+        tails.append(number[valid])
+        heads.append(moved[valid])
+        cost = 3.0 if move[0] else 2.0 + 1e-3 * sum(map(abs, move))
+        costs.append(np.full(int(valid.sum()), cost))
+    ends = (np.concatenate(tails), np.concatenate(heads))
+    return csr_matrix((np.concatenate(costs), ends), shape=(free.size, free.size))
 
 
 class Lattice:
@@ -425,40 +451,12 @@ class Lattice:
         )
         arms = np.array(ARMS[: len(boxes)])
         nearest = int(np.argmin(np.abs(arms - game.arm)))
-        self.start = int(
-            np.ravel_multi_index(
-                (nearest, int(-columns[0]), int(-rows[0]), 0), shape
-            )
-        )
+        self.start = int(np.ravel_multi_index((nearest, int(-columns[0]), int(-rows[0]), 0), shape))
         # The robot may begin in contact.
         free[self.start] = True
-        number = np.arange(len(free)).reshape(shape)
-        mask = free.reshape(shape)
-        tails, heads, costs = [], [], []
-        # Two steps of the robot are one of the lattice; diagonal steps take as long.
-        for di, dj, dk, dl in [
-            *[(a, b, c, 0) for a in (-1, 0, 1) for b in (-1, 0, 1) for c in (-1, 0, 1) if a or b or c],
-            (0, 0, 0, 1),
-            (0, 0, 0, -1),
-        ]:
-            moved = np.roll(number, (-dl, -di, -dj, -dk), axis=(0, 1, 2, 3))
-            valid = mask & mask[np.unravel_index(moved, shape)]
-            for axis, step in ((0, dl), (1, di), (2, dj)):
-                cut = [slice(None)] * 4
-                if step > 0:
-                    cut[axis] = slice(-1, None)
-                elif step < 0:
-                    cut[axis] = slice(0, 1)
-                if step:
-                    valid[tuple(cut)] = False
-            tails.append(number[valid])
-            heads.append(moved[valid])
-            costs.append(np.full(int(valid.sum()), 3.0 if dl else 2.0 + 1e-3 * (abs(di) + abs(dj) + abs(dk))))
-        graph = csr_matrix(
-            (np.concatenate(costs), (np.concatenate(tails), np.concatenate(heads))),
-            shape=(len(free), len(free)),
+        self.steps, self.before = dijkstra(
+            graph_of(free.reshape(shape)), indices=self.start, return_predecessors=True
         )
-        self.steps, self.before = dijkstra(graph, indices=self.start, return_predecessors=True)
 
     def go(self, goal: Floats, level: int) -> bool:
         """Moves the robot to a pose near the lattice; returns whether there is a way."""

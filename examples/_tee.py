@@ -62,7 +62,9 @@ class Board:
 
     def gap(self, places: complex | Points, tee: Any) -> float:
         """Returns the minimum distance of the finger's centre from the T over these positions."""
-        return float(np.min(shapely.distance(shapely.points(np.real(places), np.imag(places)), tee)))
+        return float(
+            np.min(shapely.distance(shapely.points(np.real(places), np.imag(places)), tee))
+        )
 
     def bar_of(self, poses: Floats) -> Floats:
         """Returns the pose of the bar, which is the pose of the object, metres: ``[..., 1, 3]``."""
@@ -248,7 +250,11 @@ def choose(goal: Goal, agent: complex, pose: Floats) -> Push | None:
     middle = placed(ends, np.array([3.0 * board.bar]))[:, 0]
     turn = np.abs(np.angle((second.start - middle[second.of]) / (tips - middle)[second.of]))
     later = steps[chosen][second.of] + 90.0 * turn / board.travel + EXTRA
-    later = later[:, None] + second.gone / board.push + goal.left(ends[second.of][:, None], second.poses)
+    later = (
+        later[:, None]
+        + second.gone / board.push
+        + goal.left(ends[second.of][:, None], second.poses)
+    )
     best = value[chosen]
     np.minimum.at(best, second.of, later.min(axis=1))
     one = int(np.argmin(best))

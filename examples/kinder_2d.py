@@ -23,6 +23,7 @@ import numpy.typing as npt
 import shapely  # type: ignore[import-not-found,import-untyped,unused-ignore]
 from _kinder import Episode, State
 from _kinder_hook import HookGame
+from _kinder_stick import StickGame
 from _tee import PIXEL, Board, Floats, Goal, Way, choose, pushes
 
 import pushplan
@@ -31,6 +32,7 @@ import pushplan
 STEPS = {
     "DynPushT2D-t1": 3000,
     **{f"DynPushPullHook2D-{variant}": 500 for variant in ("o0", "o1", "o5")},
+    **{f"StickButton2D-{variant}": 3000 for variant in ("b1", "b2", "b3", "b5", "b10")},
 }
 #: Pixels in a unit of the environment.
 UNIT = 100.0
@@ -54,18 +56,15 @@ def board_of(state: State, support: float, friction: float) -> Board:
     scene = scene_of(tee)
     for part in (scene["objects"][0], *scene["objects"][0]["parts"]):
         part["support"] = {"spread": support}
-    task = pushplan.Task.from_dict(
-        {
-            "scene": {
-                **scene,
-                "frictions": [{"between": ["tee", "tool"], "coefficient": friction}],
-            },
-            "robot": {"reach": {"min": 0, "max": 2}, "hand": "none", "base": "none"},
-            "tools": ["finger"],
-            "goal": {"object": "tee", "position": [0.25, 0.25], "tolerance": 0.003},
-        }
-    )
-    tip = {"name": "tip", "shape": finger_of(state), "position": [0, 0]}
+    scene["frictions"] = [{"between": ["tee", "tool"], "coefficient": friction}]
+    whole: Any = {
+        "scene": scene,
+        "robot": {"reach": {"min": 0, "max": 2}, "hand": "none", "base": "none"},
+        "tools": ["finger"],
+        "goal": {"object": "tee", "position": [0.25, 0.25], "tolerance": 0.003},
+    }
+    task = pushplan.Task.from_dict(whole)
+    tip: Any = {"name": "tip", "shape": finger_of(state), "position": [0, 0]}
     tool = pushplan.Tool.from_dict({"name": "finger", "friction": 0.5, "parts": [tip]})
     bar = shapely.box(-across / 2, -width, across / 2, 0)
     stem = shapely.box(-width / 2, -width - along, width / 2, -width)
@@ -254,17 +253,22 @@ def main() -> None:
     kinder.register_all_environments()
     steps = options.steps or STEPS[options.environment]
     seeds, games = range(*options.seeds), []
+    support = friction = BLOCKS
     if options.environment == "DynPushT2D-t1":
         fit = pushplan.fit([one for seed in RECORDED for one in recorded(seed)])
         print(f"support {fit.support}, friction {fit.friction} from {fit.pushes} pushes")
         if fit.support is None or fit.friction is None:
             raise SystemExit("the recorded pushes do not determine support and friction")
+        support, friction = fit.support, fit.friction
+    kind, variant = options.environment.split("-")
     for seed in seeds:
-        if options.environment == "DynPushT2D-t1":
-            game: TeeGame | HookGame = TeeGame(seed, steps, fit.support, fit.friction)
+        game: TeeGame | HookGame | StickGame
+        if kind == "DynPushT2D":
+            game = TeeGame(seed, steps, support, friction)
+        elif kind == "DynPushPullHook2D":
+            game = HookGame(variant, seed, steps, support)
         else:
-            variant = options.environment.split("-")[1]
-            game = HookGame(variant, seed, steps, BLOCKS)
+            game = StickGame(variant, seed, steps)
         game.play()
         what = "reached" if game.done else "not reached"
         print(f"seed {seed}: {what} after {game.steps} steps, {game.pushes} pushes", flush=True)
