@@ -184,7 +184,7 @@ fn joints_are_exported_for_ros_and_as_a_table() {
     assert_eq!(message["joint_names"].as_array().map(Vec::len), Some(6));
     let table = fs::read_to_string(folder.join("ros/push.joints.csv")).expect("a table");
     assert_eq!(table.lines().count(), points.len() + 1);
-    assert!(table.lines().all(|line| line.split(',').count() == 13));
+    assert!(table.lines().all(|line| line.split(',').count() == 19));
 
     // A robot defined only by its reach has no joints.
     write(folder, "push.yaml", &TASK.replace("ROBOT", "{reach: {min: 0.2, max: 0.8}}"));

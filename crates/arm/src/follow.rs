@@ -17,8 +17,9 @@ use pushplan::scene::{ArmFault, JointTrajectory, Object, Scene, State, Tool};
 use pushplan::task::{Followed, Plan, PushForm, PushStep, Stroke, Task};
 
 use super::inverse::postures;
-use super::path::{GENTLE, Pieces, flange_at, line, unwound};
+use super::path::{flange_at, line, unwound};
 use super::room::Room;
+use super::timing::Pieces;
 
 /// Interval of collision checks on linear joint motion, radians or metres.
 const LOOK: f64 = 0.06;
@@ -73,7 +74,7 @@ pub fn follow(
         let objects = last.map(|state| room.objects(state)).unwrap_or_default();
         let home = way(&room, pieces.now(), &arm.home, &objects).unwrap_or_default();
         for through in &home {
-            pieces.swing(through);
+            pieces.swing(through).map_err(|fault| (steps.len().saturating_sub(1), fault))?;
         }
     }
     let joints = arm.joints.iter().map(|joint| joint.name.clone()).collect();
@@ -115,28 +116,19 @@ impl Push<'_> {
             false => self.lines(&now, &now)?,
         };
         for through in &lines.way {
-            pieces.swing(through);
+            pieces.swing(through)?;
         }
         let length = |a: &Pose3, b: &Pose3| (b.position - a.position).norm();
         let ends = |line: &[Vec<f64>]| match (line.first(), line.last()) {
             (Some(a), Some(b)) => length(&flange_at(arm, a), &flange_at(arm, b)),
             _ => 0.0,
         };
-        pieces.along(&lines.down, ends(&lines.down), GENTLE, true);
+        pieces.gently(&lines.down, ends(&lines.down))?;
         let begin = pieces.points.len() - 1;
-        pieces.along(&lines.push, length(&self.ends[0], &self.ends[1]), step.push.speed, false);
+        pieces.push(&lines.push, length(&self.ends[0], &self.ends[1]), step.push.speed)?;
         let end = pieces.points.len() - 1;
-        for (joint, point) in pieces.points[begin..=end]
-            .iter()
-            .flat_map(|point| arm.joints.iter().zip(&point.velocities))
-        {
-            if let Some(limit) = joint.max_speed.filter(|limit| point.abs() > *limit) {
-                let (joint, needed) = (joint.name.clone(), point.abs());
-                return Err(ArmFault::TooFast { joint, needed, limit });
-            }
-        }
-        pieces.along(&lines.back, ends(&lines.back), GENTLE, true);
-        pieces.along(&lines.up, ends(&lines.up), GENTLE, true);
+        pieces.gently(&lines.back, ends(&lines.back))?;
+        pieces.gently(&lines.up, ends(&lines.up))?;
         Ok([begin, end])
     }
 

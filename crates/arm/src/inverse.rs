@@ -1,12 +1,15 @@
 //! Inverse kinematics by damped least squares (Wampler 1986, doi:10.1109/TSMC.1986.289285), with
 //! damping by the remaining error (Sugihara 2011, doi:10.1109/TRO.2011.2148230).
 //!
-//! Joints at their limits are fixed while the others continue. Redundant joints move towards the
-//! middle of their limits.
+//! Joints at their limits are fixed while the others continue. Redundant revolute joints move
+//! towards the middle of their limits, and the slower the nearer they are to a limit (Chan and Dubey
+//! 1995, doi:10.1109/70.370511). An arm with fewer than six joints may be unable to remove a small
+//! tilt of the tool, which comes from rounded numbers in its file. The tilt is minimized, while
+//! position and rotation about the vertical are exact.
 
-use nalgebra::{DVector, Matrix6, Vector6};
+use nalgebra::{DVector, Matrix6, Matrix6xX, Vector6};
 
-use super::model::Arm;
+use super::model::{Arm, ArmJoint};
 use pushplan::geometry::Pose3;
 
 use super::kinematics::{flange, frames, jacobian, twist};
@@ -15,11 +18,22 @@ use super::kinematics::{flange, frames, jacobian, twist};
 const SHIFT: f64 = 1e-7;
 const TURN: f64 = 1e-6;
 
+/// Maximum tilt that may remain if no joint reduces it, radians.
+const TILT: f64 = 2e-3;
+
+/// Weight of the tilt near the target, and the error at which it begins, metres and radians.
+const LIGHT: f64 = 1e-3;
+const NEARBY: f64 = 1e-2;
+
 /// Maximum joint motion in one iteration, radians or metres.
 const STRIDE: f64 = 0.4;
 
 /// Share of the way to their middle that redundant joints move in the first iteration.
 const SPARE: f64 = 0.02;
+
+/// Share of the range near each limit in which redundant joints slow down, and the least weight.
+const SLOW: f64 = 0.1;
+const SLOWEST: f64 = 0.05;
 
 /// Maximum number of iterations from a near and from an arbitrary configuration.
 pub(super) const NEAR: usize = 15;
@@ -34,24 +48,45 @@ const APART: f64 = 0.1;
 pub fn inverse(arm: &Arm, target: &Pose3, seed: &[f64], rounds: usize) -> Option<Vec<f64>> {
     let mut at = seed.to_vec();
     keep(arm, &mut at);
+    let redundant = at.len() > 6;
+    let mut tilt_before = f64::INFINITY;
     for round in 0..=rounds {
         let frames = frames(arm, &at);
         let here = flange(arm, &frames);
-        let left = twist(&here, target);
-        if left.fixed_rows::<3>(0).norm() < SHIFT && left.fixed_rows::<3>(3).norm() < TURN {
+        let mut left = twist(&here, target);
+        let tilt = left.fixed_rows::<2>(3).norm();
+        let upright = tilt < TURN || tilt < TILT && tilt > 0.9 * tilt_before;
+        if left.fixed_rows::<3>(0).norm() < SHIFT && left[5].abs() < TURN && upright {
             return Some(at);
         }
         if round == rounds {
             break;
         }
+        tilt_before = tilt;
         let mut jacobian = jacobian(arm, &frames, here.position);
+        if left.norm() < NEARBY {
+            jacobian.rows_mut(3, 2).scale_mut(LIGHT);
+            left.rows_mut(3, 2).scale_mut(LIGHT);
+        }
+        let weights: Vec<f64> =
+            arm.joints.iter().zip(&at).map(|(joint, at)| weight(joint, *at)).collect();
+        let weighted = |jacobian: &Matrix6xX<f64>, twist: &Vector6<f64>| {
+            if !redundant {
+                return solved(jacobian, twist);
+            }
+            let mut scaled = jacobian.clone();
+            scaled.column_iter_mut().zip(&weights).for_each(|(mut column, w)| column *= *w);
+            let mut step = solved(&scaled, twist);
+            step.iter_mut().zip(&weights).for_each(|(step, w)| *step *= w);
+            step
+        };
         let mut step = DVector::zeros(at.len());
         // Joints that would leave their limits are excluded, and the rest solves the step.
         for _ in 0..3 {
-            step = solved(&jacobian, &left);
+            step = weighted(&jacobian, &left);
             let mut held = false;
             for k in 0..at.len() {
-                if let Some([low, high]) = arm.joints[k].limits
+                if let Some([low, high]) = arm.joints[k].range()
                     && jacobian.column(k).norm_squared() > 0.0
                     && (at[k] <= low && step[k] < 0.0 || at[k] >= high && step[k] > 0.0)
                 {
@@ -63,11 +98,15 @@ pub fn inverse(arm: &Arm, target: &Pose3, seed: &[f64], rounds: usize) -> Option
                 break;
             }
         }
-        if round == 0 && at.len() > 6 {
-            let wish = |k: usize, _| SPARE * (arm.joints[k].middle() - at[k]);
+        if round == 0 && redundant {
+            // A lift remains at its height where the other joints suffice.
+            let wish = |k: usize, _| match arm.joints[k].slides {
+                true => 0.0,
+                false => SPARE * (arm.joints[k].middle() - at[k]),
+            };
             let wish = DVector::from_fn(at.len(), wish);
             // The null-space motion does not move the flange.
-            step += &wish - solved(&jacobian, &(&jacobian * &wish));
+            step += &wish - weighted(&jacobian, &(&jacobian * &wish));
         }
         let largest = step.amax();
         if !largest.is_finite() {
@@ -134,7 +173,7 @@ pub(super) fn start(arm: &Arm, index: usize) -> Vec<f64> {
 }
 
 /// Returns the smallest joint step for a twist, damped by its magnitude.
-fn solved(jacobian: &nalgebra::Matrix6xX<f64>, twist: &Vector6<f64>) -> DVector<f64> {
+fn solved(jacobian: &Matrix6xX<f64>, twist: &Vector6<f64>) -> DVector<f64> {
     let damping = 1e-3 * twist.norm_squared().min(1.0) + 1e-10;
     let mut square: Matrix6<f64> = jacobian * jacobian.transpose();
     for k in 0..6 {
@@ -146,10 +185,18 @@ fn solved(jacobian: &nalgebra::Matrix6xX<f64>, twist: &Vector6<f64>) -> DVector<
     }
 }
 
-/// Clamps joint positions to their limits.
+/// Returns the weight of a redundant joint: 1, and less near its limits.
+fn weight(joint: &ArmJoint, at: f64) -> f64 {
+    let Some([low, high]) = joint.range() else { return 1.0 };
+    let near = (at - low).min(high - at) / (SLOW * (high - low));
+    let near = near.clamp(0.0, 1.0);
+    SLOWEST + (1.0 - SLOWEST) * near * near * (3.0 - 2.0 * near)
+}
+
+/// Clamps joint positions to the range that the planner keeps.
 fn keep(arm: &Arm, at: &mut [f64]) {
     for (joint, at) in arm.joints.iter().zip(at) {
-        if let Some([low, high]) = joint.limits {
+        if let Some([low, high]) = joint.range() {
             *at = at.clamp(low, high);
         }
     }
@@ -158,7 +205,7 @@ fn keep(arm: &Arm, at: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{ArmBody, ArmJoint, ToolMount};
+    use crate::model::{ArmBody, ToolMount};
     use crate::places::Places;
     use pushplan::geometry::{Turn3, Vector3};
 
@@ -171,6 +218,8 @@ mod tests {
             axis,
             limits: Some([-2.8, 2.8]),
             max_speed: Some(2.0),
+            max_acceleration: None,
+            max_jerk: None,
         };
         let (y, z) = (Vector3::y(), Vector3::z());
         let joints = vec![
@@ -188,6 +237,7 @@ mod tests {
             bodies: (0..7).map(body).collect(),
             home: vec![0.0; joints.len()],
             joints,
+            beside: Vec::new(),
             pairs: Vec::new(),
             flange: Pose3::default(),
             mount: ToolMount { length: 0.1, yaw: 0.0 },

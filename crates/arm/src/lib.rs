@@ -19,6 +19,7 @@
 //! - `room`: collisions of the arm and its tool; `foot`: the root link as obstacles.
 //! - `path`, `follow`: conversion of a plan to a
 //!   [`JointTrajectory`](pushplan::scene::JointTrajectory).
+//! - `timing`: speeds along the path, within the limits of the joints, which `strain` measures.
 //! - `judge`, `pace`: independent check of such a trajectory from its numbers only.
 //!
 //! The response of the table is not modelled here.
@@ -47,6 +48,8 @@ mod path;
 mod places;
 mod read;
 mod room;
+mod strain;
+mod timing;
 #[cfg(feature = "urdf")]
 mod urdf;
 

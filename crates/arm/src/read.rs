@@ -69,7 +69,7 @@ fn read(stated: &StatedArm) -> Result<Arm, ArmRefusal> {
     arm.places = places;
     if !saved
         && stated.home.is_none()
-        && let Some(home) = usual_home(&arm, arm.places.ring, stated.travel)
+        && let Some(home) = usual_home(&arm, stated.travel)
     {
         arm.home = home;
     }
@@ -93,7 +93,7 @@ fn from_urdf(_: &ArmSource) -> Result<Arm, Wrong> {
 
 impl RobotArm for Arm {
     fn ring(&self) -> [f64; 2] {
-        self.places.ring
+        self.places.ring_about_origin()
     }
 
     fn mount_length(&self) -> f64 {

@@ -45,10 +45,10 @@ const FLAT: f64 = 1e-3;
 
 /// Writes the joint trajectory: a row for each point.
 pub(super) fn way(xml: &mut Xml, path: &JointTrajectory) {
-    xml.comment("Joint trajectory: for each point the time, then positions, then velocities.");
+    xml.comment("Joint trajectory: for each point the time, positions, velocities, accelerations.");
     for (k, point) in path.points.iter().enumerate() {
         let mut row = vec![point.time];
-        row.extend(point.positions.iter().chain(&point.velocities));
+        row.extend(point.positions.iter().chain(&point.velocities).chain(&point.accelerations));
         numeric(xml, &format!("joints {}", k + 1), &row);
     }
     xml.comment("Points at which pushes begin and end, counted from 1.");
