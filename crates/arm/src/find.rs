@@ -10,7 +10,7 @@ use pushplan::geometry::{Pose, Pose3, Vector, Vector3};
 use pushplan::scene::Scene;
 
 use super::inverse::{NEAR, inverse, near, postures};
-use super::kinematics::{dexterity, frames};
+use super::kinematics::{dexterity, frames, level};
 use super::path::DEXTERITY;
 use super::room::Room;
 
@@ -143,9 +143,9 @@ fn vertical_axis(arm: &Arm) -> Option<(Vector, bool)> {
 }
 
 /// Returns a collision-free configuration with a tool in the middle of the annulus, at the travel
-/// height, metres, or as high as possible. It is ahead of the base if possible. Returns `None` if
-/// there is none.
-pub fn usual_home(arm: &Arm, travel: f64) -> Option<Vec<f64>> {
+/// height, metres, or as high as possible. It is ahead of the base if possible. An arm whose joints
+/// all move horizontally is at the height of pushes. Returns `None` if there is none.
+pub fn usual_home(arm: &Arm, [lift, travel]: [f64; 2]) -> Option<Vec<f64>> {
     let scene = Scene::default();
     let room = Room::new(arm, &scene, None);
     let [near_by, far] = arm.places.ring;
@@ -155,8 +155,11 @@ pub fn usual_home(arm: &Arm, travel: f64) -> Option<Vec<f64>> {
         let ahead = Vector::new(bearing.cos(), bearing.sin());
         let position = arm.places.centre + 0.5 * (near_by + far) * ahead;
         let at = Pose { position, heading: turn };
-        [1.0, 0.75, 0.5, 0.25].iter().find_map(|share| {
-            let target = Pose3::upright(at, share * travel) * arm.flange_of_tool();
+        let heights = [1.0, 0.75, 0.5, 0.25].map(|share| share * travel);
+        let is_level = level(arm, &frames(arm, &arm.home), lift).is_some();
+        let heights = if is_level { &[lift][..] } else { &heights[..] };
+        heights.iter().find_map(|height| {
+            let target = Pose3::upright(at, *height) * arm.flange_of_tool();
             let free = |posture: &Vec<f64>| {
                 dexterity(arm, &frames(arm, posture)) >= DEXTERITY
                     && room.met(&room.stance(posture), &[], false).is_none()

@@ -1,8 +1,7 @@
 //! Conversion of a plan of pushes to a joint trajectory.
 //!
 //! Every push consists of straight lines of the flange: down, along the push, back by the tool's
-//! retreat, and up. Between pushes the joints move linearly. If that collides, they move through
-//! the home configuration, rotated to the start and then to the end.
+//! retreat, and up. Between pushes the joints move without collisions, see `free`.
 //!
 //! The start configuration of a push is searched for near the current one first, then everywhere;
 //! the first from which the whole push is feasible is used. After the last push the arm returns
@@ -16,13 +15,12 @@ use pushplan::geometry::Pose3;
 use pushplan::scene::{ArmFault, JointTrajectory, Object, Scene, State, Tool};
 use pushplan::task::{Followed, Plan, PushForm, PushStep, Stroke, Task};
 
+use super::free::{first_turn, way};
 use super::inverse::postures;
+use super::kinematics::{frames, level};
 use super::path::{flange_at, line, unwound};
 use super::room::Room;
 use super::timing::Pieces;
-
-/// Interval of collision checks on linear joint motion, radians or metres.
-const LOOK: f64 = 0.06;
 
 /// Minimum clearance of a lifted tool above the tallest object, metres, if the arm cannot reach the
 /// travel height of the task.
@@ -30,6 +28,9 @@ const ABOVE: f64 = 0.02;
 
 /// Maximum number of start configurations tried for a push.
 const POSTURES: usize = 10;
+
+/// Maximum number of start configurations to which a path is searched for.
+const SEARCHES: usize = 3;
 
 /// Computes the joint trajectory with which `arm` executes the pushes of a plan. `states` are the
 /// states before the first push and after each, as far as they are known.
@@ -72,7 +73,7 @@ pub fn follow(
     if motion.strokes.last().is_some_and(|stroke| stroke.settle) {
         let last = states.get(steps.len()).or(states.last());
         let objects = last.map(|state| room.objects(state)).unwrap_or_default();
-        let home = way(&room, pieces.now(), &arm.home, &objects).unwrap_or_default();
+        let home = way(&room, [pieces.now(), &arm.home], &objects, true).unwrap_or_default();
         for through in &home {
             pieces.swing(through).map_err(|fault| (steps.len().saturating_sub(1), fault))?;
         }
@@ -113,7 +114,7 @@ impl Push<'_> {
         let now = pieces.now().to_vec();
         let lines = match self.set_down {
             true => self.begun(&now)?,
-            false => self.lines(&now, &now)?,
+            false => self.lines(&now, &now, false)?,
         };
         for through in &lines.way {
             pieces.swing(through)?;
@@ -138,6 +139,7 @@ impl Push<'_> {
         let seeds = [now.to_vec(), facing(arm, &arm.home, &self.ends[0])];
         let mut fault = None;
         let mut tried: Vec<Vec<f64>> = Vec::new();
+        let mut blocked = Vec::new();
         // Configurations near the current one usually suffice.
         for all in [false, true] {
             let found = match all {
@@ -149,18 +151,30 @@ impl Push<'_> {
                 if tried.contains(&posture) {
                     continue;
                 }
-                match self.lines(&posture, now) {
+                match self.lines(&posture, now, false) {
                     Ok(lines) => return Ok(lines),
-                    Err(found) => fault = fault.or(Some(found)),
+                    Err(found) => {
+                        if let ArmFault::NoWay { .. } = found {
+                            blocked.push(posture.clone());
+                        }
+                        fault = fault.or(Some(found));
+                    }
                 }
                 tried.push(posture);
+            }
+        }
+        // A search takes much longer than a check of simple paths.
+        for posture in blocked.iter().take(SEARCHES) {
+            if let Ok(lines) = self.lines(posture, now, true) {
+                return Ok(lines);
             }
         }
         Err(fault.unwrap_or(ArmFault::Unreachable))
     }
 
-    /// Computes the lines from the given start configuration.
-    fn lines(&self, posture: &[f64], now: &[f64]) -> Result<Lines, ArmFault> {
+    /// Computes the lines from the given start configuration, with a search for the way to it only
+    /// if asked for.
+    fn lines(&self, posture: &[f64], now: &[f64], search: bool) -> Result<Lines, ArmFault> {
         let arm = self.room.arm;
         let (push, fault) = line(arm, [&self.ends[0], &self.ends[1]], posture);
         fault.map_or(Ok(()), Err)?;
@@ -173,7 +187,7 @@ impl Push<'_> {
         if self.set_down {
             let mut up = self.risen(&self.ends[0], posture, &self.before)?;
             up.reverse();
-            lines.way = way(self.room, now, &up[0], &self.before)?;
+            lines.way = way(self.room, [now, &up[0]], &self.before, search)?;
             lines.down = up;
         }
         if let Some(back) = &self.back {
@@ -186,13 +200,18 @@ impl Push<'_> {
         Ok(lines)
     }
 
-    /// Computes a vertical line upwards, as far as reachable.
+    /// Computes a vertical line upwards, as far as reachable. An arm whose joints all move
+    /// horizontally stays where it is.
     fn risen(
         &self,
         from: &Pose3,
         posture: &[f64],
         objects: &[(&str, PlacedHull)],
     ) -> Result<Vec<Vec<f64>>, ArmFault> {
+        let arm = self.room.arm;
+        if level(arm, &frames(arm, posture), 0.0).is_some() {
+            return Ok(vec![posture.to_vec()]);
+        }
         let mut to = *from;
         to.position.z += self.rise.max(self.least);
         let (points, fault) = line(self.room.arm, [from, &to], posture);
@@ -217,50 +236,12 @@ impl Push<'_> {
     }
 }
 
-/// Returns joint positions from `from` to `to` with the tool lifted, without collisions: `to` alone
-/// if possible, otherwise through the rotated home configuration.
-fn way(
-    room: &Room<'_>,
-    from: &[f64],
-    to: &[f64],
-    objects: &[(&str, PlacedHull)],
-) -> Result<Vec<Vec<f64>>, ArmFault> {
-    let Some(between) = swept(room, [from, to], objects) else { return Ok(vec![to.to_vec()]) };
-    let folded = |at: &[f64]| {
-        let mut folded = room.arm.home.clone();
-        folded[0] = at[0];
-        folded
-    };
-    let by = [folded(from), folded(to), to.to_vec()];
-    let mut at = from;
-    for next in &by {
-        if swept(room, [at, next], objects).is_some() {
-            return Err(ArmFault::NoWay { between });
-        }
-        at = next;
-    }
-    Ok(by.to_vec())
-}
-
-/// Returns the first collision on linear joint motion.
-fn swept(
-    room: &Room<'_>,
-    [from, to]: [&[f64]; 2],
-    objects: &[(&str, PlacedHull)],
-) -> Option<[String; 2]> {
-    let far = from.iter().zip(to).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    let steps = (far / LOOK).ceil().max(1.0) as usize;
-    (0..=steps).find_map(|step| {
-        let share = step as f64 / steps as f64;
-        let at: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + share * (b - a)).collect();
-        room.met(&room.stance(&at), objects, true)
-    })
-}
-
 /// Returns a configuration with the first joint rotated so that the flange faces a target.
 fn facing(arm: &Arm, posture: &[f64], target: &Pose3) -> Vec<f64> {
     let mut turned = posture.to_vec();
-    let angle = |pose: &Pose3| pose.position.y.atan2(pose.position.x);
-    turned[0] += pushplan::geometry::wrap_angle(angle(target) - angle(&flange_at(arm, posture)));
+    let from = |pose: &Pose3| pose.position - arm.base.position;
+    let angle = |pose: &Pose3| from(pose).y.atan2(from(pose).x);
+    turned[first_turn(arm)] +=
+        pushplan::geometry::wrap_angle(angle(target) - angle(&flange_at(arm, posture)));
     turned
 }

@@ -65,8 +65,10 @@ pub fn judge(
             // The tool is drawn back along the last push, and lowered at the start of the next.
             let beside = if point < begin { &before[..] } else { &steps[k..=k] };
             let lowered = lowered(arm, beside, &samples).filter(|_| !pushing);
-            limits(arm, path, point, (&samples, pushing))
-                .or_else(|| pushing.then(|| off(arm, step, &samples)).flatten())
+            pushing
+                .then(|| off(arm, step, &samples))
+                .flatten()
+                .or_else(|| limits(arm, path, point, (&samples, pushing)))
                 .or_else(|| lowered.as_ref().and_then(|(step, poses)| hasty(step, poses, time)))
                 .or_else(|| {
                     let carried = !pushing && lowered.is_none();

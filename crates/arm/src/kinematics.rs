@@ -54,6 +54,16 @@ pub(super) fn twist(from: &Pose3, to: &Pose3) -> Vector6<f64> {
     Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)
 }
 
+/// Returns the height of the tool's underside above its height in a push, metres, for an arm whose
+/// joints all move horizontally; `None` for other arms.
+pub(super) fn level(arm: &Arm, frames: &[Pose3], lift: f64) -> Option<f64> {
+    let at = flange(arm, frames);
+    let jacobian = jacobian(arm, frames, at.position);
+    let down = (at.rotation * Vector3::z()).z < -1.0 + LEVEL;
+    let moves = jacobian.rows(2, 3).amax();
+    (moves < LEVEL && down).then(|| at.position.z - arm.mount.length - lift)
+}
+
 /// Returns the smallest speed of the tool in any direction that pushing needs, for joints that move
 /// at one radian per second, metres per radian. These directions are the position in the plane, the
 /// height, and the rotation about the vertical, weighted by a lever arm of 20 cm. The tool must not

@@ -17,7 +17,7 @@
 //! - `kinematics`: frames and Jacobian from joint positions; `inverse`: joint positions from a
 //!   pose.
 //! - `room`: collisions of the arm and its tool; `foot`: the root link as obstacles.
-//! - `path`, `follow`: conversion of a plan to a
+//! - `path`, `free`, `follow`: conversion of a plan to a
 //!   [`JointTrajectory`](pushplan::scene::JointTrajectory).
 //! - `timing`: speeds along the path, within the limits of the joints, which `strain` measures.
 //! - `judge`, `pace`: independent check of such a trajectory from its numbers only.
@@ -36,6 +36,7 @@
 mod find;
 mod follow;
 mod foot;
+mod free;
 mod hull;
 mod inverse;
 mod judge;
