@@ -21,6 +21,7 @@ use crate::program::{run, stderr};
 
 mod files;
 mod foot;
+mod kinds;
 
 /// Six joints: rotation of the base, shoulder, elbow, and a wrist with three joints.
 const URDF: &str = r#"<robot name="six">

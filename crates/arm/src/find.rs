@@ -155,6 +155,9 @@ pub fn usual_home(arm: &Arm, [lift, travel]: [f64; 2]) -> Option<Vec<f64>> {
         let ahead = Vector::new(bearing.cos(), bearing.sin());
         let position = arm.places.centre + 0.5 * (near_by + far) * ahead;
         let at = Pose { position, heading: turn };
+        if !arm.places.allow(position, turn) {
+            return None;
+        }
         let heights = [1.0, 0.75, 0.5, 0.25].map(|share| share * travel);
         let is_level = level(arm, &frames(arm, &arm.home), lift).is_some();
         let heights = if is_level { &[lift][..] } else { &heights[..] };

@@ -83,7 +83,7 @@ pub fn dexterity(arm: &Arm, frames: &[Pose3]) -> f64 {
         square.try_inverse().map_or(Matrix4::zeros(), |one| across * one * across.transpose());
     let mut free: Matrix4<f64> = &moves * moves.transpose() - held;
     if level {
-        free[(2, 2)] = f64::MAX.sqrt();
+        free[(2, 2)] = 1.0;
     }
     free.symmetric_eigenvalues().min().max(0.0).sqrt()
 }

@@ -24,6 +24,9 @@ pub(super) type Wrong = (String, String);
 /// metres.
 const LEVELLED: f64 = 1e-3;
 
+/// Lengths of a tool mount that are tried for an arm that cannot reach the table, metres.
+const SHORTER: [f64; 3] = [0.1, 0.07, 0.05];
+
 const AGAIN: &str = "the file is damaged or from another version; create it again";
 
 /// Registers the reader of this crate, for arms of URDF files and of plan files.
@@ -82,14 +85,16 @@ fn read(stated: &StatedArm) -> Result<Arm, ArmRefusal> {
 /// Returns the reason why an arm cannot hold a tool above the table anywhere, and the remedy. `axis`
 /// points out of the flange, see [`ArmSource::Urdf`].
 fn unable(arm: &Arm, lift: f64, axis: usize) -> Wrong {
-    let able = |other: &usize| {
+    let able = |other: usize, length: f64| {
         let mut turned = arm.clone();
-        turned.flange.rotation *= outwards(axis).inverse() * outwards(*other);
-        turned.places = Places::default();
+        turned.flange.rotation *= outwards(axis).inverse() * outwards(other);
+        turned.mount.length = length;
         find_places(&turned, lift).is_some()
     };
     let word = |axis: usize| ["x", "y", "z", "-x", "-y", "-z"][axis];
-    let others = (0..6).filter(|other| *other != axis);
+    let mut others = (0..6).filter(|other| *other != axis);
+    let length = arm.mount.length;
+    let mut shorter = SHORTER.into_iter().filter(|shorter| *shorter < length);
     let base = arm.base.position.z;
     let message = match level(arm, &frames(arm, &arm.home), lift) {
         Some(offset) if offset.abs() > LEVELLED => {
@@ -110,16 +115,19 @@ fn unable(arm: &Arm, lift: f64, axis: usize) -> Wrong {
         _ => format!(
             "this arm cannot hold a tool above the table with its flange {:.2} m above it and \
              pointing down",
-            arm.mount.length + lift
+            length + lift
         ),
     };
-    let advice = match others.into_iter().find(able) {
-        Some(other) => format!("write `tool_mount: {{axis: {}}}`", word(other)),
-        None => format!(
+    let advice = if let Some(other) = others.find(|other| able(*other, length)) {
+        format!("write `tool_mount: {{axis: {}}}`", word(other))
+    } else if let Some(shorter) = shorter.find(|shorter| able(axis, *shorter)) {
+        format!("it can with `tool_mount: {{length: {shorter}}}` and tools at most that high")
+    } else {
+        format!(
             "the {} axis of `flange` must point out of it; check `base_pose` and `tool_mount` as \
              well",
             word(axis)
-        ),
+        )
     };
     (message, advice)
 }
