@@ -90,7 +90,7 @@ fn row(
     let arm = room.arm;
     let sound = |posture: &Vec<f64>| {
         dexterity(arm, &frames(arm, posture)) >= DEXTERITY
-            && room.met(&room.stance(posture), &[], false).is_none()
+            && room.met(&room.stance(posture), &[], None).is_none()
     };
     let ahead = Vector::new(bearing.cos(), bearing.sin());
     let held = |ring: usize, before: Option<&Vec<f64>>| {
@@ -165,7 +165,7 @@ pub fn usual_home(arm: &Arm, [lift, travel]: [f64; 2]) -> Option<Vec<f64>> {
             let target = Pose3::upright(at, *height) * arm.flange_of_tool();
             let free = |posture: &Vec<f64>| {
                 dexterity(arm, &frames(arm, posture)) >= DEXTERITY
-                    && room.met(&room.stance(posture), &[], false).is_none()
+                    && room.met(&room.stance(posture), &[], None).is_none()
             };
             postures(arm, &target, std::slice::from_ref(&arm.home)).into_iter().find(free)
         })

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use super::hull::PlacedHull;
 use super::model::Arm;
 use pushplan::geometry::Pose3;
-use pushplan::scene::{ArmFault, JointTrajectory, Object, Scene, State, Tool};
+use pushplan::scene::{ArmFault, JointTrajectory, Scene, State, Tool};
 use pushplan::task::{Followed, Plan, PushForm, PushStep, Stroke, Task};
 
 use super::free::{first_turn, way};
@@ -22,9 +22,9 @@ use super::path::{flange_at, line, unwound};
 use super::room::Room;
 use super::timing::Pieces;
 
-/// Minimum clearance of a lifted tool above the tallest object, metres, if the arm cannot reach the
-/// travel height of the task.
-const ABOVE: f64 = 0.02;
+/// Minimum height by which a tool is lifted, metres, if the arm cannot reach the travel height of the
+/// task. The tool then goes around taller bodies.
+const LEAST: f64 = 0.01;
 
 /// Maximum number of start configurations tried for a push.
 const POSTURES: usize = 10;
@@ -47,7 +47,6 @@ pub fn follow(
     let room = Room::new(arm, scene, Some(tool));
     let motion = plan.motion(tool);
     let mount = arm.flange_of_tool();
-    let tallest = scene.objects.iter().map(Object::top).fold(0.0, f64::max);
     let mut pieces = Pieces::new(arm);
     let mut pushes = Vec::new();
     let steps: Vec<&PushStep> = plan.push_steps().collect();
@@ -63,7 +62,6 @@ pub fn follow(
             ends: [at(&stroke.from, step.lift), at(&stroke.to, step.lift)],
             back: motion.retreat(scene, k).map(|back: Stroke| at(&back.to, step.lift)),
             rise: (task.robot.travel - step.lift).max(0.0),
-            least: (tallest + ABOVE - step.lift).max(ABOVE),
             before: objects(k),
             after: objects(k + 1),
         };
@@ -89,9 +87,8 @@ struct Push<'a> {
     ends: [Pose3; 2],
     /// Pose of the retreat before lifting, if the tool is lifted.
     back: Option<Pose3>,
-    /// Lifting height and its minimum, metres.
+    /// Lifting height, metres.
     rise: f64,
-    least: f64,
     before: Vec<(&'a str, PlacedHull)>,
     after: Vec<(&'a str, PlacedHull)>,
 }
@@ -213,12 +210,12 @@ impl Push<'_> {
             return Ok(vec![posture.to_vec()]);
         }
         let mut to = *from;
-        to.position.z += self.rise.max(self.least);
+        to.position.z += self.rise.max(LEAST);
         let (points, fault) = line(self.room.arm, [from, &to], posture);
         let reached = points
             .last()
             .map_or(0.0, |last| flange_at(self.room.arm, last).position.z - from.position.z);
-        if let Some(fault) = fault.filter(|_| reached < self.least) {
+        if let Some(fault) = fault.filter(|_| reached < LEAST) {
             return Err(fault);
         }
         self.clear(&points, objects)?;
@@ -228,7 +225,7 @@ impl Push<'_> {
     /// Checks that the arm without its tool is collision-free.
     fn clear(&self, points: &[Vec<f64>], objects: &[(&str, PlacedHull)]) -> Result<(), ArmFault> {
         for point in points {
-            if let Some(between) = self.room.met(&self.room.stance(point), objects, false) {
+            if let Some(between) = self.room.met(&self.room.stance(point), objects, None) {
                 return Err(ArmFault::Collides { between });
             }
         }

@@ -20,8 +20,15 @@ const LOOK: f64 = 0.06;
 const STRIDE: f64 = 0.15;
 const SAMPLES: usize = 600;
 
+/// Distance of a carried tool from other bodies, metres, where both ends of a motion allow it: lower
+/// things are not quite where they are expected.
+const APART: f64 = 0.005;
+
 /// Seed of the samples: a plan must not depend on the time at which it is made.
 const SEED: u64 = 67;
+
+/// Objects, and the distance that the tool keeps from them, metres.
+type Bodies<'a> = (&'a [(&'a str, PlacedHull)], f64);
 
 /// Returns joint positions on a path between two configurations with the tool lifted, without
 /// collisions and without the first. Trees are grown only to `search`.
@@ -34,6 +41,8 @@ pub(super) fn way(
     objects: &[(&str, PlacedHull)],
     search: bool,
 ) -> Result<Vec<Vec<f64>>, ArmFault> {
+    let free = |at: &[f64]| room.met(&room.stance(at), objects, Some(APART)).is_none();
+    let objects = (objects, if free(from) && free(to) { APART } else { 0.0 });
     let Some(between) = swept(room, [from, to], objects) else { return Ok(vec![to.to_vec()]) };
     let turn = first_turn(room.arm);
     let folded = |at: &[f64]| {
@@ -56,12 +65,8 @@ pub(super) fn first_turn(arm: &Arm) -> usize {
 }
 
 /// Returns a path of random trees, shortened, without its first configuration.
-fn searched(
-    room: &Room<'_>,
-    [from, to]: [&[f64]; 2],
-    objects: &[(&str, PlacedHull)],
-) -> Option<Vec<Vec<f64>>> {
-    let is_free = |at: &[f64]| room.met(&room.stance(at), objects, true).is_none();
+fn searched(room: &Room<'_>, [from, to]: [&[f64]; 2], objects: Bodies) -> Option<Vec<Vec<f64>>> {
+    let is_free = |at: &[f64]| room.met(&room.stance(at), objects.0, Some(objects.1)).is_none();
     if !is_free(from) || !is_free(to) {
         return None;
     }
@@ -95,16 +100,12 @@ fn searched(
 }
 
 /// Returns the first collision on linear joint motion.
-fn swept(
-    room: &Room<'_>,
-    [from, to]: [&[f64]; 2],
-    objects: &[(&str, PlacedHull)],
-) -> Option<[String; 2]> {
+fn swept(room: &Room<'_>, [from, to]: [&[f64]; 2], objects: Bodies) -> Option<[String; 2]> {
     let far = from.iter().zip(to).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let steps = (far / LOOK).ceil().max(1.0) as usize;
     (0..=steps).find_map(|step| {
         let share = step as f64 / steps as f64;
         let at: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + share * (b - a)).collect();
-        room.met(&room.stance(&at), objects, true)
+        room.met(&room.stance(&at), objects.0, Some(objects.1))
     })
 }

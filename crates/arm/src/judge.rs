@@ -71,7 +71,7 @@ pub fn judge(
                 .or_else(|| limits(arm, path, point, (&samples, pushing)))
                 .or_else(|| lowered.as_ref().and_then(|(step, poses)| hasty(step, poses, time)))
                 .or_else(|| {
-                    let carried = !pushing && lowered.is_none();
+                    let carried = (!pushing && lowered.is_none()).then_some(0.0);
                     let met = |at: &Vec<f64>| room.met(&room.stance(at), &objects, carried);
                     let between = samples.iter().find_map(met)?;
                     Some(ArmFault::Collides { between })

@@ -116,13 +116,13 @@ impl<'a> Room<'a> {
     }
 
     /// Returns the names of the first colliding pair, if any: bodies of the arm, table, obstacles
-    /// and `objects`. The tool counts only if it is `carried`, because it touches objects when it
-    /// pushes.
+    /// and `objects`. The tool counts only if it is `carried` at a distance from them, metres,
+    /// because it touches objects when it pushes.
     pub fn met(
         &self,
         stance: &Stance,
         objects: &[(&str, PlacedHull)],
-        carried: bool,
+        carried: Option<f64>,
     ) -> Option<[String; 2]> {
         let links: Vec<&ArmBody> = self.arm.links().collect();
         let name = |k: usize| links[k].name.clone();
@@ -151,12 +151,10 @@ impl<'a> Room<'a> {
                 return Some([name(k), other]);
             }
         }
-        if !carried {
-            return None;
-        }
+        let apart = carried?;
         let mut others = self.obstacles.iter().chain(objects);
         let inside =
-            |other: &PlacedHull| stance.tool.iter().any(|part| part.gap(other, 0.0) <= 0.0);
+            |other: &PlacedHull| stance.tool.iter().any(|part| part.gap(other, apart) <= apart);
         if let Some((other, _)) = others.find(|(_, other)| inside(other)) {
             return Some([TOOL.into(), (*other).to_owned()]);
         }

@@ -50,7 +50,7 @@ class Judge:
         packages = [str(packages or urdf.parents[4])]
         self.model = pin.buildModelFromUrdf(str(urdf))
         self.solids = pin.buildGeomFromUrdf(self.model, str(urdf), pin.COLLISION, packages)
-        self.flange = self.model.getFrameId(flange)
+        self.flange = self.model.getFrameId(flange, pin.BODY)
         # Only the chain to the flange is checked, not a gripper, and no neighbours.
         chain = set(self.model.supports[self.model.frames[self.flange].parentJoint])
         parents = [solid.parentJoint for solid in self.solids.geometryObjects]

@@ -80,8 +80,9 @@ def folder(package):
     return place, place / "rtbdata/xacro" if package == "rtb-data" else place
 
 
-def tasks(near, far, yaw, centre):
-    """Returns the pushes of an arm by name, about the middle of its annulus."""
+def tasks(near, far, yaw, centre, length):
+    """Returns the pushes of an arm by name, about the middle of its annulus. Things are lower than
+    its flange."""
     turn = np.array([[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]])
     size = float(np.clip(0.4 * far, 0.25, 0.4))
     middle = 0.5 * (near + far)
@@ -98,8 +99,9 @@ def tasks(near, far, yaw, centre):
         goal = {"object": "thing", "position": goal, "tolerance": 0.01} | (extra or {})
         return {"scene": scene, "tools": tools, "pushes": {"length": 0.1}, "goal": goal}
 
-    can = {"cylinder": {"radius": 0.03, "height": 0.06}}
-    box = {"cuboid": {"size": [0.08, 0.06, 0.05]}}
+    height = min(0.06, length - 0.02)
+    can = {"cylinder": {"radius": 0.03, "height": height}}
+    box = {"cuboid": {"size": [0.08, 0.06, height]}}
     turned = {"heading_deg": round(float(np.degrees(yaw)) + 20, 3), "heading_tolerance_deg": 8}
     wall = {"name": "wall", "size": [0.02, 0.08, 0.04], "position": at(-0.12, 0.0)}
     hooks = ["hook", "l-hook", "paddle"]
@@ -138,7 +140,7 @@ def main():
         urdf, mount = place / urdf, {"length": USUAL} | mount
         robot = {"urdf": str(urdf), "flange": flange, "tool_mount": mount, "base_pose": base}
         row = {"arm": name, "package": f"{package} {version(package)}", "licence": licence}
-        more, out = ["--root", root, "--effort", "standard"], options.out / name.replace(" ", "-")
+        more, out = ["--root", root, "--effort", "draft"], options.out / name.replace(" ", "-")
 
         def attempt(task, label, robot, solved_in):
             path = options.out / f"{label}.yaml"
@@ -146,7 +148,7 @@ def main():
             return solve(options.program, path, solved_in, more)[0]
 
         # A push that needs nothing tells the arm's annulus.
-        first = tasks(0.2, 0.6, 0.0, np.zeros(2))["away"]
+        first = tasks(0.2, 0.6, 0.0, np.zeros(2), USUAL)["away"]
         first["goal"] = {"object": "thing", "position": [3.0, 3.0], "tolerance": 0.05}
         first["scene"]["objects"][0]["position"] = [3.0, 3.0]
         label = f"{name.replace(' ', '-')}-first"
@@ -163,12 +165,13 @@ def main():
         home = judge.pose([joint["name"] for joint in arm["joints"]], arm["home"], arm["base"])
         home = home.translation[:2] - centre
         yaw, plans = float(np.arctan2(home[1], home[0])), []
-        for kind, task in tasks(near, far, yaw, centre).items():
+        ring = {"min": max(0.1, near), "max": far}
+        own = tasks(near, far, yaw, centre, mount["length"])
+        bare = tasks(near, far, yaw, np.zeros(2), mount["length"])
+        for kind, task in own.items():
             label = f"{name.replace(' ', '-')}-{kind}"
-            distance = float(np.linalg.norm(centre))
-            ring = {"min": max(0.1, near - distance), "max": far + distance}
-            bare = {"reach": ring, "base": "none"}
-            if attempt(task, f"{label}-bare", bare, options.out / "bare") != 0:
+            ringed = {"reach": ring, "base": "none"}
+            if attempt(bare[kind], f"{label}-bare", ringed, options.out / "bare") != 0:
                 continue
             row["feasible"] += 1
             if attempt(task, label, robot, out) != 0:
