@@ -24,7 +24,7 @@ pub enum ArmFault {
         /// Speed limit of the joint, radians or metres a second.
         limit: f64,
     },
-    /// A joint would have to accelerate faster than its limit, or faster change its acceleration.
+    /// A joint would have to accelerate faster than its limit, or change its acceleration faster.
     TooAbrupt {
         /// Name of the joint.
         joint: String,
@@ -89,8 +89,8 @@ impl fmt::Display for ArmFault {
                 let what = if *jerk { "jerk" } else { "acceleration" };
                 write!(
                     f,
-                    "joint `{joint}` would need {article} {what} of {needed:.1}, above its limit of \
-                     {limit:.1} (rad or m, s)",
+                    "joint `{joint}` would need {article} {what} of {needed:.1}, above its limit \
+                     of {limit:.1} (rad or m, s)",
                     article = if *jerk { "a" } else { "an" }
                 )
             }

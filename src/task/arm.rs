@@ -120,7 +120,8 @@ pub enum ArmSource<'a> {
         /// Axis of the flange's frame that points out of it: 0 to 2 for x, y and z, 3 to 5 for
         /// their opposites.
         axis: usize,
-        /// Maximum accelerations: none for those of the file, one for all joints, or one for each.
+        /// Maximum accelerations: none to use the values of the file, one for all joints, or one
+        /// for each.
         accelerations: Vec<f64>,
         /// Maximum jerks, likewise.
         jerks: Vec<f64>,

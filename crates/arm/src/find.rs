@@ -67,7 +67,7 @@ pub fn find_places(arm: &Arm, height: f64) -> Option<Places> {
         Some(_) => rows(TURNS, *bearing),
         None => Vec::new(),
     };
-    // The annulus of an arm without vertical axis is that of all bearings.
+    // The annulus of an arm without vertical axis covers all bearings.
     let found: Vec<Vec<bool>> = match axis {
         Some(_) => free.clone(),
         None => tried.iter().flat_map(|(_, rows)| rows.clone()).collect(),
@@ -79,8 +79,8 @@ pub fn find_places(arm: &Arm, height: f64) -> Option<Places> {
     (first < last).then_some(Places { ring, step: STEP, turns: TURNS, free, centre })
 }
 
-/// Returns the feasibility at each distance from a centre at a bearing, for one rotation of the tool
-/// relative to this bearing.
+/// Returns the feasibility at each distance from a centre at a bearing, for one rotation of the
+/// tool relative to this bearing.
 fn row(
     room: &Room,
     (height, turn): (f64, f64),
@@ -149,16 +149,17 @@ pub fn usual_home(arm: &Arm, [lift, travel]: [f64; 2]) -> Option<Vec<f64>> {
     let scene = Scene::default();
     let room = Room::new(arm, &scene, None);
     let [near_by, far] = arm.places.ring;
-    let turns = (0..BEARINGS).map(|k| k as f64 * TAU / BEARINGS as f64);
-    let tried = turns.clone().flat_map(|bearing| turns.clone().map(move |turn| (bearing, turn)));
-    tried.into_iter().find_map(|(bearing, turn)| {
+    let turns = |count: usize| (0..count).map(move |k| k as f64 * TAU / count as f64);
+    let mut tried =
+        turns(BEARINGS).flat_map(|bearing| turns(FEW_TURNS).map(move |turn| (bearing, turn)));
+    tried.find_map(|(bearing, turn)| {
         let ahead = Vector::new(bearing.cos(), bearing.sin());
         let position = arm.places.centre + 0.5 * (near_by + far) * ahead;
         let at = Pose { position, heading: turn };
         if !arm.places.allow(position, turn) {
             return None;
         }
-        let heights = [1.0, 0.75, 0.5, 0.25].map(|share| share * travel);
+        let heights = [1.0, 0.75, 0.5, 0.25, 0.1].map(|share| share * travel);
         let is_level = level(arm, &frames(arm, &arm.home), lift).is_some();
         let heights = if is_level { &[lift][..] } else { &heights[..] };
         heights.iter().find_map(|height| {

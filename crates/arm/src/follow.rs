@@ -22,8 +22,8 @@ use super::path::{flange_at, line, unwound};
 use super::room::Room;
 use super::timing::Pieces;
 
-/// Minimum height by which a tool is lifted, metres, if the arm cannot reach the travel height of the
-/// task. The tool then goes around taller bodies.
+/// Minimum height by which a tool is lifted, metres, if the arm cannot reach the travel height of
+/// the task. The tool then goes around taller bodies.
 const LEAST: f64 = 0.01;
 
 /// Maximum number of start configurations tried for a push.

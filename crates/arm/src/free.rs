@@ -2,13 +2,11 @@
 //! through the home configuration, otherwise a path of bidirectional rapidly exploring random trees
 //! (Kuffner and LaValle 2000, doi:10.1109/ROBOT.2000.844730), by the crate `rrt`.
 
-use std::cell::RefCell;
+use std::cell::Cell;
 use std::f64::consts::PI;
 
-use rand::{Rng, SeedableRng};
-use rand_pcg::Pcg64Mcg;
-
 use super::hull::PlacedHull;
+use super::inverse::kronecker;
 use super::model::Arm;
 use super::room::Room;
 use pushplan::scene::ArmFault;
@@ -20,12 +18,9 @@ const LOOK: f64 = 0.06;
 const STRIDE: f64 = 0.15;
 const SAMPLES: usize = 600;
 
-/// Distance of a carried tool from other bodies, metres, where both ends of a motion allow it: lower
-/// things are not quite where they are expected.
+/// Distance of a carried tool from other bodies, metres, where both ends of a motion allow it:
+/// bodies are not exactly where they are expected.
 const APART: f64 = 0.005;
-
-/// Seed of the samples: a plan must not depend on the time at which it is made.
-const SEED: u64 = 67;
 
 /// Objects, and the distance that the tool keeps from them, metres.
 type Bodies<'a> = (&'a [(&'a str, PlacedHull)], f64);
@@ -76,10 +71,11 @@ fn searched(room: &Room<'_>, [from, to]: [&[f64]; 2], objects: Bodies) -> Option
         [low.max(a.min(*b) - PI), high.min(a.max(*b) + PI)]
     });
     let spans: Vec<[f64; 2]> = spans.collect();
-    let random = RefCell::new(Pcg64Mcg::seed_from_u64(SEED));
+    // An even sequence instead of random numbers: a plan does not depend on the time it is made.
+    let count = Cell::new(0);
     let sample = || {
-        let mut random = random.borrow_mut();
-        spans.iter().map(|[low, high]| low + random.random::<f64>() * (high - low)).collect()
+        count.set(count.get() + 1);
+        kronecker(&spans, count.get())
     };
     let path = rrt::dual_rrt_connect(from, to, is_free, sample, STRIDE, SAMPLES).ok()?;
     let path: Vec<Vec<f64>> = [vec![from.to_vec()], path, vec![to.to_vec()]].concat();

@@ -2,10 +2,12 @@
 //! damping by the remaining error (Sugihara 2011, doi:10.1109/TRO.2011.2148230).
 //!
 //! Joints at their limits are fixed while the others continue. Redundant revolute joints move
-//! towards the middle of their limits, and the slower the nearer they are to a limit (Chan and Dubey
-//! 1995, doi:10.1109/70.370511). An arm with fewer than six joints may be unable to remove a small
-//! tilt of the tool, which comes from rounded numbers in its file. The tilt is minimized, while
-//! position and rotation about the vertical are exact.
+//! towards the middle of their limits. They move less if they are slow, such as a lift, or near a
+//! limit (Chan and Dubey 1995, doi:10.1109/70.370511). An arm with fewer than six joints may be
+//! unable to remove a small tilt of the tool, which comes from rounded numbers in its file. The
+//! tilt is minimized, while position and rotation about the vertical are exact.
+
+use std::f64::consts::PI;
 
 use nalgebra::{DVector, Matrix6, Matrix6xX, Vector6};
 
@@ -48,7 +50,7 @@ const APART: f64 = 0.1;
 pub fn inverse(arm: &Arm, target: &Pose3, seed: &[f64], rounds: usize) -> Option<Vec<f64>> {
     let mut at = seed.to_vec();
     keep(arm, &mut at);
-    let redundant = at.len() > 6;
+    let redundant = at.len() > 6 || arm.joints.iter().any(|joint| joint.slides);
     let mut tilt_before = f64::INFINITY;
     for round in 0..=rounds {
         let frames = frames(arm, &at);
@@ -98,7 +100,7 @@ pub fn inverse(arm: &Arm, target: &Pose3, seed: &[f64], rounds: usize) -> Option
                 break;
             }
         }
-        if round == 0 && redundant {
+        if round == 0 && at.len() > 6 {
             // A lift remains at its height where the other joints suffice.
             let wish = |k: usize, _| match arm.joints[k].slides {
                 true => 0.0,
@@ -153,23 +155,26 @@ pub fn postures(arm: &Arm, target: &Pose3, seeds: &[Vec<f64>]) -> Vec<Vec<f64>> 
 }
 
 /// Returns joint positions of a Kronecker sequence within the limits, evenly distributed and
-/// deterministic.
+/// deterministic. Rotations by more than one turn repeat the same configurations.
 pub(super) fn start(arm: &Arm, index: usize) -> Vec<f64> {
+    let spans = arm.joints.iter().map(|joint| {
+        let [low, high] = joint.limits.unwrap_or([-PI, PI]);
+        let low = low.max(-PI);
+        [low, high.min(PI).max(low)]
+    });
+    kronecker(&spans.collect::<Vec<_>>(), index)
+}
+
+/// Returns the point with an index of the Kronecker sequence within spans.
+pub(super) fn kronecker(spans: &[[f64; 2]], index: usize) -> Vec<f64> {
     // The shares are powers of the positive root of x^(d+1) = x + 1.
-    let d = arm.joints.len() as i32;
+    let d = spans.len() as i32;
     let mut root: f64 = 1.5;
     for _ in 0..40 {
         root = (1.0 + root).powf(1.0 / f64::from(d + 1));
     }
     let share = |k: usize| (0.5 + (index + 1) as f64 * root.powi(-(k as i32 + 1))).fract();
-    let at = |k: usize| {
-        let span = arm.joints[k].limits.unwrap_or([-std::f64::consts::PI, std::f64::consts::PI]);
-        // Rotations by more than one turn repeat the same configurations.
-        let low = span[0].max(-std::f64::consts::PI);
-        let high = span[1].min(std::f64::consts::PI).max(low);
-        low + share(k) * (high - low)
-    };
-    (0..arm.joints.len()).map(at).collect()
+    spans.iter().enumerate().map(|(k, [low, high])| low + share(k) * (high - low)).collect()
 }
 
 /// Returns the smallest joint step for a twist, damped by its magnitude.
@@ -185,12 +190,13 @@ fn solved(jacobian: &Matrix6xX<f64>, twist: &Vector6<f64>) -> DVector<f64> {
     }
 }
 
-/// Returns the weight of a redundant joint: 1, and less near its limits.
+/// Returns the weight of a redundant joint: 1, and less if it is slow or near its limits.
 fn weight(joint: &ArmJoint, at: f64) -> f64 {
-    let Some([low, high]) = joint.range() else { return 1.0 };
+    let fast = joint.speed().min(1.0);
+    let Some([low, high]) = joint.range() else { return fast };
     let near = (at - low).min(high - at) / (SLOW * (high - low));
     let near = near.clamp(0.0, 1.0);
-    SLOWEST + (1.0 - SLOWEST) * near * near * (3.0 - 2.0 * near)
+    fast * (SLOWEST + (1.0 - SLOWEST) * near * near * (3.0 - 2.0 * near))
 }
 
 /// Clamps joint positions to the range that the planner keeps.

@@ -48,7 +48,8 @@ impl Places {
         sound && (self.free.is_empty() || self.step >= FINEST && counted)
     }
 
-    /// Returns the smallest and the largest distance of the annulus from the world's origin, metres.
+    /// Returns the smallest and the largest distance of the annulus from the world's origin,
+    /// metres.
     pub fn ring_about_origin(&self) -> [f64; 2] {
         let ([near, far], away) = (self.ring, self.centre.norm());
         [(near - away).max(away - far).max(0.0), far + away]

@@ -82,8 +82,8 @@ fn read(stated: &StatedArm) -> Result<Arm, ArmRefusal> {
     Ok(arm)
 }
 
-/// Returns the reason why an arm cannot hold a tool above the table anywhere, and the remedy. `axis`
-/// points out of the flange, see [`ArmSource::Urdf`].
+/// Returns the reason why an arm cannot hold a tool above the table anywhere, and the remedy.
+/// `axis` points out of the flange, see [`ArmSource::Urdf`].
 fn unable(arm: &Arm, lift: f64, axis: usize) -> Wrong {
     let able = |other: usize, length: f64| {
         let mut turned = arm.clone();

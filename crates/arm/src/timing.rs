@@ -2,9 +2,9 @@
 //! and jerk.
 //!
 //! A path is a function of one parameter, which moves by a jerk-limited profile of the crate
-//! `rsruckig` (Berscheid and Kröger 2021, doi:10.15607/RSS.2021.XVII.015). The joints therefore stay
-//! on the path, whatever its timing. Between the points of a line their positions are a natural
-//! cubic spline, so that accelerations are continuous.
+//! `rsruckig` (Berscheid and Kröger 2021, doi:10.15607/RSS.2021.XVII.015). The joints therefore
+//! stay on the path, whatever its timing. Between the points of a line their positions are a
+//! natural cubic spline, so that accelerations are continuous.
 
 use rsruckig::prelude::{InputParameter, Ruckig, ThrowErrorHandler, Trajectory};
 
@@ -129,9 +129,9 @@ fn rates(line: &[Vec<f64>], length: f64, speed: f64) -> Option<Rates> {
     (count > 0.0 && length > 0.0).then(|| rates.map(|rate| rate / each))
 }
 
-/// Returns times, positions, speeds and accelerations of the fastest motion of a parameter from 0 to
-/// `length`: at the ends of the phases of constant jerk, and between them at most 1 apart. Returns
-/// `None` if the numbers are not valid.
+/// Returns times, positions, speeds and accelerations of the fastest motion of a parameter from 0
+/// to `length`: at the ends of the phases of constant jerk, and between them at most 1 apart.
+/// Returns `None` if the numbers are not valid.
 fn profile(length: f64, [speed, acceleration, jerk]: Rates) -> Option<Vec<[f64; 4]>> {
     let mut input = InputParameter::<1>::new(None);
     input.target_position[0] = length;

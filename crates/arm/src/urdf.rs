@@ -153,9 +153,9 @@ impl<'a> File<'a> {
         Ok(arm)
     }
 
-    /// Collects the solids of a link on the chain, and of links that hang on it outside the chain,
-    /// such as a gripper, at rest. Links that hang on the resting part of the arm by movable joints,
-    /// such as a second arm, are collected as separate bodies.
+    /// Collects the solids of a link on the chain, and of its other branches at rest, such as a
+    /// gripper. Links on movable branches of the resting part of the arm, such as a second arm, are
+    /// collected as separate bodies.
     fn collect(
         &self,
         branches: &Branches<'_, 'a>,

