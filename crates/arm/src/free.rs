@@ -2,10 +2,11 @@
 //! through the home configuration, otherwise a path of bidirectional rapidly exploring random trees
 //! (Kuffner and LaValle 2000, doi:10.1109/ROBOT.2000.844730), by the crate `rrt`.
 
-use std::cell::Cell;
-use std::f64::consts::PI;
+#[cfg(feature = "search")]
+use std::{cell::Cell, f64::consts::PI};
 
 use super::hull::PlacedHull;
+#[cfg(feature = "search")]
 use super::inverse::kronecker;
 use super::model::Arm;
 use super::room::Room;
@@ -15,7 +16,9 @@ use pushplan::scene::ArmFault;
 const LOOK: f64 = 0.06;
 
 /// Step of the trees in joint space, and the maximum number of samples.
+#[cfg(feature = "search")]
 const STRIDE: f64 = 0.15;
+#[cfg(feature = "search")]
 const SAMPLES: usize = 600;
 
 /// Distance of a carried tool from other bodies, metres, where both ends of a motion allow it:
@@ -59,7 +62,14 @@ pub(super) fn first_turn(arm: &Arm) -> usize {
     arm.joints.iter().position(|joint| !joint.slides).unwrap_or(0)
 }
 
+/// Returns no path, because this build has no search.
+#[cfg(not(feature = "search"))]
+fn searched(_: &Room<'_>, _: [&[f64]; 2], _: Bodies) -> Option<Vec<Vec<f64>>> {
+    None
+}
+
 /// Returns a path of random trees, shortened, without its first configuration.
+#[cfg(feature = "search")]
 fn searched(room: &Room<'_>, [from, to]: [&[f64]; 2], objects: Bodies) -> Option<Vec<Vec<f64>>> {
     let is_free = |at: &[f64]| room.met(&room.stance(at), objects.0, Some(objects.1)).is_none();
     if !is_free(from) || !is_free(to) {
