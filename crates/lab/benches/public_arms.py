@@ -8,7 +8,8 @@ Each arm gets the same pushes, scaled to its reach: a can pushed away, to both s
 that is rotated, and a can behind a wall. A task is feasible if it is solved for an end effector
 confined to the arm's annulus. Pinocchio checks the trajectories from the URDF: the pose of the
 flange (1 mm, half a degree), limits of position and speed, and the accelerations and jerks of the
-quintics against pushplan's defaults. MuJoCo executes the plans by servos. Lengths are in metres.
+quintics against pushplan's defaults; overlaps of links are counted apart. MuJoCo executes the plans
+by servos. Lengths are in metres.
 """
 
 import argparse
@@ -22,21 +23,21 @@ import numpy as np
 from arms import Judge, between, played, robots, solve
 
 SMALL, USUAL, FLOOR = 0.05, 0.12, {"height": -0.7}
-# Name: package, licence, file, flange, tool mount, base pose.
+# Name: package, licence as the package states it, file, flange, tool mount, base pose.
 ARMS = {
     "Panda": ("example-robot-data", "Apache-2.0", "panda_description/urdf/panda.urdf",
               "panda_link8", {}, {}),
-    "UR3": ("example-robot-data", "BSD-3-Clause", "ur_description/urdf/ur3_robot.urdf",
+    "UR3": ("example-robot-data", "BSD", "ur_description/urdf/ur3_robot.urdf",
             "tool0", {}, {}),
-    "UR5": ("example-robot-data", "BSD-3-Clause", "ur_description/urdf/ur5_robot.urdf",
+    "UR5": ("example-robot-data", "BSD", "ur_description/urdf/ur5_robot.urdf",
             "tool0", {}, {}),
-    "UR10": ("example-robot-data", "BSD-3-Clause", "ur_description/urdf/ur10_robot.urdf",
+    "UR10": ("example-robot-data", "BSD", "ur_description/urdf/ur10_robot.urdf",
              "tool0", {}, {}),
     "xArm7": ("example-robot-data", "BSD-3-Clause", "xarm_description/urdf/xarm7.urdf",
               "link_eef", {}, {}),
-    "Z1": ("example-robot-data", "BSD-3-Clause", "z1_description/urdf/z1.urdf",
+    "Z1": ("example-robot-data", "MPL-2.0", "z1_description/urdf/z1.urdf",
            "link06", {"axis": "x"}, {}),
-    "Jaco 2": ("example-robot-data", "BSD-3-Clause", "kinova_description/robots/kinova.urdf",
+    "Jaco 2": ("example-robot-data", "BSD", "kinova_description/robots/kinova.urdf",
                "j2s6s200_end_effector", {}, {}),
     "SO-100": ("example-robot-data", "Apache-2.0", "so_arm_description/urdf/so100.urdf",
                "gripper", {"axis": "-y", "length": 0.1}, {}),
@@ -47,24 +48,24 @@ ARMS = {
     "TIAGo Pro": ("example-robot-data", "Apache-2.0",
                   "tiago_pro_description/robots/tiago_pro.urdf",
                   "arm_left_tool_link", {}, FLOOR),
-    "PR2": ("example-robot-data", "BSD-3-Clause", "pr2_description/urdf/pr2.urdf",
+    "PR2": ("example-robot-data", "BSD", "pr2_description/urdf/pr2.urdf",
             "r_gripper_tool_frame", {"axis": "x"}, FLOOR),
-    "Baxter": ("example-robot-data", "BSD-3-Clause", "baxter_description/urdf/baxter.urdf",
+    "Baxter": ("example-robot-data", "BSD", "baxter_description/urdf/baxter.urdf",
                "left_hand_link", {}, {}),
     "TALOS": ("example-robot-data", "Apache-2.0", "talos_data/robots/talos_left_arm.urdf",
-              "wrist_left_ft_tool_link", {}, {}),
-    "xArm6": ("pybullet", "BSD-3-Clause", "pybullet_data/xarm/xarm6_robot.urdf", "link6", {}, {}),
-    "iiwa 7": ("pybullet", "BSD-3-Clause", "pybullet_data/kuka_iiwa/model.urdf",
+              "wrist_left_ft_tool_link", {"axis": "-z"}, {"height": 0.5}),
+    "xArm6": ("pybullet", "zlib", "pybullet_data/xarm/xarm6_robot.urdf", "link6", {}, {}),
+    "iiwa 7": ("pybullet", "zlib", "pybullet_data/kuka_iiwa/model.urdf",
                "lbr_iiwa_link_7", {}, {}),
-    "Sawyer": ("robosuite", "Apache-2.0",
+    "Sawyer": ("robosuite", "MIT",
                "robosuite/models/assets/bullet_data/sawyer_description/urdf/sawyer_arm.urdf",
                "right_l6", {}, {}),
-    "iiwa 14": ("rtb-data", "Apache-2.0",
+    "iiwa 14": ("rtb-data", "MIT",
                 "rtbdata/xacro/kuka_description/kuka_lbr_iiwa/urdf/lbr_iiwa_14_r820.urdf",
                 "tool0", {}, {}),
-    "KR 16": ("rtb-data", "Apache-2.0",
+    "KR 16": ("rtb-data", "MIT",
               "rtbdata/xacro/kuka_description/kuka_kr16/urdf/kr16_2.urdf", "tool0", {}, {}),
-    "Puma 560": ("rtb-data", "BSD-3-Clause",
+    "Puma 560": ("rtb-data", "MIT",
                  "rtbdata/xacro/unimation_puma560_description/urdf/puma560_robot.urdf",
                  "link7", {}, {}),
 }
@@ -154,7 +155,8 @@ def main():
         label = f"{name.replace(' ', '-')}-first"
         code = attempt(first, label, robot, out)
         found = list(out.glob(f"{label}.plan.json"))
-        row |= {"read": bool(found), "feasible": 0, "planned": 0, "within": 0, "reached": 0}
+        row |= {"read": bool(found), "feasible": 0, "planned": 0, "within": 0}
+        row |= {"overlaps": 0, "reached": 0}
         if not found:
             print(json.dumps(row | {"code": code}), flush=True)
             continue
@@ -182,6 +184,9 @@ def main():
             plan = json.loads(plans[-1].read_text())
             faults, _ = judge.faults(plan, mount["length"])
             worst = rates(plan)
+            # Links whose solids overlap in many postures are not checked by pushplan.
+            row["overlaps"] += any(" in " in fault for fault in faults)
+            faults = [fault for fault in faults if " in " not in fault]
             row["within"] += not faults and max(worst) <= 1.001
             if faults or max(worst) > 1.001:
                 print(json.dumps({"task": label, "faults": faults, "rates": worst}), flush=True)
