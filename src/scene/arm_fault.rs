@@ -24,6 +24,17 @@ pub enum ArmFault {
         /// Speed limit of the joint, radians or metres a second.
         limit: f64,
     },
+    /// A joint would have to accelerate faster than its limit, or change its acceleration faster.
+    TooAbrupt {
+        /// Name of the joint.
+        joint: String,
+        /// Whether the jerk is too high; otherwise it is the acceleration.
+        jerk: bool,
+        /// Required value, with radians or metres, and seconds to the second or third power.
+        needed: f64,
+        /// Limit of the joint in the same unit.
+        limit: f64,
+    },
     /// The arm is so stretched out or folded that it cannot move in some direction.
     Singular,
     /// Two bodies of the arm overlap, or the arm overlaps an obstacle.
@@ -74,6 +85,15 @@ impl fmt::Display for ArmFault {
                 "joint `{joint}` would need a speed of {needed:.2}, above its limit of {limit:.2} \
                  (rad/s or m/s)"
             ),
+            Self::TooAbrupt { joint, jerk, needed, limit } => {
+                let what = if *jerk { "jerk" } else { "acceleration" };
+                write!(
+                    f,
+                    "joint `{joint}` would need {article} {what} of {needed:.1}, above its limit \
+                     of {limit:.1} (rad or m, s)",
+                    article = if *jerk { "a" } else { "an" }
+                )
+            }
             Self::Singular => write!(f, "the arm comes too close to a singularity"),
             Self::Collides { between: [a, b] } => write!(f, "`{a}` collides with `{b}`"),
             Self::Off { distance } => {

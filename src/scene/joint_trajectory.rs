@@ -15,10 +15,13 @@ pub struct JointPoint {
     pub positions: Vec<f64>,
     /// Joint velocities, radians or metres a second.
     pub velocities: Vec<f64>,
+    /// Joint accelerations, radians or metres per second squared; empty in older plans.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub accelerations: Vec<f64>,
 }
 
-/// The joint motion with which an arm carries out a plan. Between points the joints follow cubic
-/// Hermite polynomials.
+/// The joint motion with which an arm carries out a plan. Between points the joints follow quintic
+/// Hermite polynomials, or cubic ones if a point states no accelerations.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JointTrajectory {
@@ -33,18 +36,36 @@ pub struct JointTrajectory {
 impl JointTrajectory {
     /// Returns the positions at a share (0 to 1) of the time between a point and the next.
     pub fn between(&self, point: usize, share: f64) -> Vec<f64> {
+        self.derivatives(point, share).into_iter().map(|[position, ..]| position).collect()
+    }
+
+    /// Returns position, velocity, acceleration and jerk of every joint at a share (0 to 1) of the
+    /// time between a point and the next.
+    pub fn derivatives(&self, point: usize, share: f64) -> Vec<[f64; 4]> {
         let [a, b] = [&self.points[point], &self.points[point + 1]];
         let (time, s) = (b.time - a.time, share);
-        let (s2, s3) = (s * s, s * s * s);
-        let weights = [2.0 * s3 - 3.0 * s2 + 1.0, s3 - 2.0 * s2 + s, 3.0 * s2 - 2.0 * s3, s3 - s2];
-        (0..a.positions.len())
-            .map(|k| {
-                weights[0] * a.positions[k]
-                    + weights[1] * time * a.velocities[k]
-                    + weights[2] * b.positions[k]
-                    + weights[3] * time * b.velocities[k]
-            })
-            .collect()
+        let each = |k: usize| {
+            let way = b.positions[k] - a.positions[k];
+            let [v, w] = [a.velocities[k] * time, b.velocities[k] * time];
+            let bends = a.accelerations.get(k).zip(b.accelerations.get(k));
+            // Coefficients of the powers of `s` from the second on.
+            let [c2, c3, c4, c5] = match bends.map(|(a, b)| [a, b].map(|v| v * time * time)) {
+                None => [3.0 * way - 2.0 * v - w, v + w - 2.0 * way, 0.0, 0.0],
+                Some([a, b]) => [
+                    0.5 * a,
+                    10.0 * way - 6.0 * v - 4.0 * w - 1.5 * a + 0.5 * b,
+                    8.0 * v + 7.0 * w - 15.0 * way + 1.5 * a - b,
+                    6.0 * way - 3.0 * v - 3.0 * w - 0.5 * a + 0.5 * b,
+                ],
+            };
+            [
+                a.positions[k] + s * (v + s * (c2 + s * (c3 + s * (c4 + s * c5)))),
+                (v + s * (2.0 * c2 + s * (3.0 * c3 + s * (4.0 * c4 + s * 5.0 * c5)))) / time,
+                (2.0 * c2 + s * (6.0 * c3 + s * (12.0 * c4 + s * 20.0 * c5))) / time.powi(2),
+                (6.0 * c3 + s * (24.0 * c4 + s * 60.0 * c5)) / time.powi(3),
+            ]
+        };
+        (0..a.positions.len()).map(each).collect()
     }
 
     /// Returns the duration, seconds.
@@ -58,7 +79,12 @@ impl JointTrajectory {
         let mut before = f64::NEG_INFINITY;
         for point in &self.points {
             let numbers = point.positions.iter().chain(&point.velocities);
-            if point.positions.len() != count || point.velocities.len() != count {
+            let numbers = numbers.chain(&point.accelerations);
+            let bends = point.accelerations.len();
+            if point.positions.len() != count
+                || point.velocities.len() != count
+                || bends != 0 && bends != count
+            {
                 return Some("every point must have one number per joint");
             }
             if !numbers.chain([&point.time]).all(|v| v.is_finite()) || point.time <= before {
@@ -92,6 +118,7 @@ mod tests {
             time,
             positions: vec![position],
             velocities: vec![velocity],
+            accelerations: Vec::new(),
         };
         let mut path = JointTrajectory {
             joints: vec!["j".into()],
@@ -100,6 +127,14 @@ mod tests {
         };
         assert!((path.between(0, 0.25)[0] - 0.5).abs() < 1e-12);
         assert_eq!((path.between(1, 1.0)[0], path.duration(), path.fault()), (2.0, 3.0, None));
+        // The cubic of x = t^3 over two seconds, and with accelerations the quintic of x = t^5.
+        path.points = vec![at(0.0, 0.0, 0.0), at(2.0, 8.0, 12.0)];
+        assert_eq!(path.derivatives(0, 0.5), [[1.0, 3.0, 6.0, 6.0]]);
+        path.points = vec![at(0.0, 0.0, 0.0), at(1.0, 1.0, 5.0), at(3.0, 2.0, 0.0)];
+        path.points[0].accelerations = vec![0.0];
+        path.points[1].accelerations = vec![20.0];
+        assert_eq!(path.derivatives(0, 0.5), [[0.03125, 0.3125, 2.5, 15.0]]);
+        assert_eq!(path.fault(), None);
         path.pushes.push([1, 3]);
         assert!(path.fault().is_some());
         path.pushes.clear();

@@ -115,8 +115,16 @@ pub enum ArmSource<'a> {
         base: Pose3,
         /// Distance from the flange to the tool's underside, metres.
         length: f64,
-        /// Rotation of the tool about the flange's z axis, radians.
+        /// Rotation of the tool about the axis out of the flange, radians.
         yaw: f64,
+        /// Axis of the flange's frame that points out of it: 0 to 2 for x, y and z, 3 to 5 for
+        /// their opposites.
+        axis: usize,
+        /// Maximum accelerations: none to use the values of the file, one for all joints, or one
+        /// for each.
+        accelerations: Vec<f64>,
+        /// Maximum jerks, likewise.
+        jerks: Vec<f64>,
     },
     /// The form stored in plan files, see [`RobotArm::to_json`].
     Saved(Json),

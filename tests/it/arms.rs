@@ -21,6 +21,7 @@ use crate::program::{run, stderr};
 
 mod files;
 mod foot;
+mod kinds;
 
 /// Six joints: rotation of the base, shoulder, elbow, and a wrist with three joints.
 const URDF: &str = r#"<robot name="six">
@@ -184,7 +185,7 @@ fn joints_are_exported_for_ros_and_as_a_table() {
     assert_eq!(message["joint_names"].as_array().map(Vec::len), Some(6));
     let table = fs::read_to_string(folder.join("ros/push.joints.csv")).expect("a table");
     assert_eq!(table.lines().count(), points.len() + 1);
-    assert!(table.lines().all(|line| line.split(',').count() == 13));
+    assert!(table.lines().all(|line| line.split(',').count() == 19));
 
     // A robot defined only by its reach has no joints.
     write(folder, "push.yaml", &TASK.replace("ROBOT", "{reach: {min: 0.2, max: 0.8}}"));
@@ -274,10 +275,7 @@ fn errors_of_arms_have_location_and_remedy() {
             "{urdf: six.urdf, flange: tool0, reach: {max: 0.9}}",
             "`reach` is already defined by the arm",
         ),
-        (
-            "{urdf: six.urdf, flange: tool0, base: 0.1}",
-            "with an arm, it states how the arm is mounted",
-        ),
+        ("{urdf: six.urdf, flange: tool0, base: 0.1}", "`base` is already defined by the arm"),
         ("{urdf: six.urdf, flange: tool0, hand: none}", "`hand` is already defined by the arm"),
         ("{urdf: six.urdf}", "an arm needs a `flange`"),
         ("{urdf: six.urdf, flange: tool1}", "there is no link `tool1`"),
@@ -292,14 +290,18 @@ fn errors_of_arms_have_location_and_remedy() {
             "at home joint `elbow` is at 5",
         ),
         (
-            "{urdf: six.urdf, flange: tool0, base: {height: 5}}",
+            "{urdf: six.urdf, flange: tool0, base_pose: {height: 5}}",
             "cannot hold a tool above the table",
         ),
         (
             "{flange: tool0, reach: {max: 0.9}}",
             "`flange` is a key of an arm, but the task has no arm",
         ),
-        ("{base: {height: 0.1}, reach: {max: 0.9}}", "`base` states how an arm is mounted"),
+        ("{base_pose: {height: 0.1}, reach: {max: 0.9}}", "`base_pose` is a key of an arm"),
+        (
+            "{urdf: six.urdf, flange: tool0, joint_limits: {jerk: [9, 9]}}",
+            "`joint_limits` has 2 numbers for `jerk`, but the arm has 6 joints",
+        ),
         ("{home: [0, 0, 0], reach: {max: 0.9}}", "expected a list of 2 numbers, found one of 3"),
         ("{home: [0, 0]}", "missing key `reach`"),
         ("{arm: {name: six}}", "the arm is not valid: missing field"),
@@ -314,7 +316,7 @@ fn errors_of_arms_have_location_and_remedy() {
 fn a_damaged_arm_is_a_fault_with_its_place_in_the_urdf() {
     for (good, bad, message) in [
         ("upper=\"2.7\"", "upper=\"-2.8\"", "joint `elbow` has an empty range of positions"),
-        ("lower=\"-2.7\"", "lower=\"${low}\"", "`lower` contains `${low}`"),
+        ("lower=\"-2.7\"", "lower=\"${low}\"", "this is a xacro file, not a URDF"),
         (
             "name=\"wrist3\" type=\"continuous\"",
             "name=\"wrist3\" type=\"planar\"",

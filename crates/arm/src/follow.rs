@@ -1,8 +1,7 @@
 //! Conversion of a plan of pushes to a joint trajectory.
 //!
 //! Every push consists of straight lines of the flange: down, along the push, back by the tool's
-//! retreat, and up. Between pushes the joints move linearly. If that collides, they move through
-//! the home configuration, rotated to the start and then to the end.
+//! retreat, and up. Between pushes the joints move without collisions, see `free`.
 //!
 //! The start configuration of a push is searched for near the current one first, then everywhere;
 //! the first from which the whole push is feasible is used. After the last push the arm returns
@@ -13,22 +12,25 @@ use std::sync::Arc;
 use super::hull::PlacedHull;
 use super::model::Arm;
 use pushplan::geometry::Pose3;
-use pushplan::scene::{ArmFault, JointTrajectory, Object, Scene, State, Tool};
+use pushplan::scene::{ArmFault, JointTrajectory, Scene, State, Tool};
 use pushplan::task::{Followed, Plan, PushForm, PushStep, Stroke, Task};
 
+use super::free::{first_turn, way};
 use super::inverse::postures;
-use super::path::{GENTLE, Pieces, flange_at, line, unwound};
+use super::kinematics::{frames, level};
+use super::path::{flange_at, line, unwound};
 use super::room::Room;
+use super::timing::Pieces;
 
-/// Interval of collision checks on linear joint motion, radians or metres.
-const LOOK: f64 = 0.06;
-
-/// Minimum clearance of a lifted tool above the tallest object, metres, if the arm cannot reach the
-/// travel height of the task.
-const ABOVE: f64 = 0.02;
+/// Minimum height by which a tool is lifted, metres, if the arm cannot reach the travel height of
+/// the task. The tool then goes around taller bodies.
+const LEAST: f64 = 0.01;
 
 /// Maximum number of start configurations tried for a push.
 const POSTURES: usize = 10;
+
+/// Maximum number of start configurations to which a path is searched for.
+const SEARCHES: usize = 3;
 
 /// Computes the joint trajectory with which `arm` executes the pushes of a plan. `states` are the
 /// states before the first push and after each, as far as they are known.
@@ -45,7 +47,6 @@ pub fn follow(
     let room = Room::new(arm, scene, Some(tool));
     let motion = plan.motion(tool);
     let mount = arm.flange_of_tool();
-    let tallest = scene.objects.iter().map(Object::top).fold(0.0, f64::max);
     let mut pieces = Pieces::new(arm);
     let mut pushes = Vec::new();
     let steps: Vec<&PushStep> = plan.push_steps().collect();
@@ -61,7 +62,6 @@ pub fn follow(
             ends: [at(&stroke.from, step.lift), at(&stroke.to, step.lift)],
             back: motion.retreat(scene, k).map(|back: Stroke| at(&back.to, step.lift)),
             rise: (task.robot.travel - step.lift).max(0.0),
-            least: (tallest + ABOVE - step.lift).max(ABOVE),
             before: objects(k),
             after: objects(k + 1),
         };
@@ -71,9 +71,9 @@ pub fn follow(
     if motion.strokes.last().is_some_and(|stroke| stroke.settle) {
         let last = states.get(steps.len()).or(states.last());
         let objects = last.map(|state| room.objects(state)).unwrap_or_default();
-        let home = way(&room, pieces.now(), &arm.home, &objects).unwrap_or_default();
+        let home = way(&room, [pieces.now(), &arm.home], &objects, true).unwrap_or_default();
         for through in &home {
-            pieces.swing(through);
+            pieces.swing(through).map_err(|fault| (steps.len().saturating_sub(1), fault))?;
         }
     }
     let joints = arm.joints.iter().map(|joint| joint.name.clone()).collect();
@@ -87,9 +87,8 @@ struct Push<'a> {
     ends: [Pose3; 2],
     /// Pose of the retreat before lifting, if the tool is lifted.
     back: Option<Pose3>,
-    /// Lifting height and its minimum, metres.
+    /// Lifting height, metres.
     rise: f64,
-    least: f64,
     before: Vec<(&'a str, PlacedHull)>,
     after: Vec<(&'a str, PlacedHull)>,
 }
@@ -112,31 +111,22 @@ impl Push<'_> {
         let now = pieces.now().to_vec();
         let lines = match self.set_down {
             true => self.begun(&now)?,
-            false => self.lines(&now, &now)?,
+            false => self.lines(&now, &now, false)?,
         };
         for through in &lines.way {
-            pieces.swing(through);
+            pieces.swing(through)?;
         }
         let length = |a: &Pose3, b: &Pose3| (b.position - a.position).norm();
         let ends = |line: &[Vec<f64>]| match (line.first(), line.last()) {
             (Some(a), Some(b)) => length(&flange_at(arm, a), &flange_at(arm, b)),
             _ => 0.0,
         };
-        pieces.along(&lines.down, ends(&lines.down), GENTLE, true);
+        pieces.gently(&lines.down, ends(&lines.down))?;
         let begin = pieces.points.len() - 1;
-        pieces.along(&lines.push, length(&self.ends[0], &self.ends[1]), step.push.speed, false);
+        pieces.push(&lines.push, length(&self.ends[0], &self.ends[1]), step.push.speed)?;
         let end = pieces.points.len() - 1;
-        for (joint, point) in pieces.points[begin..=end]
-            .iter()
-            .flat_map(|point| arm.joints.iter().zip(&point.velocities))
-        {
-            if let Some(limit) = joint.max_speed.filter(|limit| point.abs() > *limit) {
-                let (joint, needed) = (joint.name.clone(), point.abs());
-                return Err(ArmFault::TooFast { joint, needed, limit });
-            }
-        }
-        pieces.along(&lines.back, ends(&lines.back), GENTLE, true);
-        pieces.along(&lines.up, ends(&lines.up), GENTLE, true);
+        pieces.gently(&lines.back, ends(&lines.back))?;
+        pieces.gently(&lines.up, ends(&lines.up))?;
         Ok([begin, end])
     }
 
@@ -146,6 +136,7 @@ impl Push<'_> {
         let seeds = [now.to_vec(), facing(arm, &arm.home, &self.ends[0])];
         let mut fault = None;
         let mut tried: Vec<Vec<f64>> = Vec::new();
+        let mut blocked = Vec::new();
         // Configurations near the current one usually suffice.
         for all in [false, true] {
             let found = match all {
@@ -157,18 +148,30 @@ impl Push<'_> {
                 if tried.contains(&posture) {
                     continue;
                 }
-                match self.lines(&posture, now) {
+                match self.lines(&posture, now, false) {
                     Ok(lines) => return Ok(lines),
-                    Err(found) => fault = fault.or(Some(found)),
+                    Err(found) => {
+                        if let ArmFault::NoWay { .. } = found {
+                            blocked.push(posture.clone());
+                        }
+                        fault = fault.or(Some(found));
+                    }
                 }
                 tried.push(posture);
+            }
+        }
+        // A search takes much longer than a check of simple paths.
+        for posture in blocked.iter().take(SEARCHES) {
+            if let Ok(lines) = self.lines(posture, now, true) {
+                return Ok(lines);
             }
         }
         Err(fault.unwrap_or(ArmFault::Unreachable))
     }
 
-    /// Computes the lines from the given start configuration.
-    fn lines(&self, posture: &[f64], now: &[f64]) -> Result<Lines, ArmFault> {
+    /// Computes the lines from the given start configuration, with a search for the way to it only
+    /// if asked for.
+    fn lines(&self, posture: &[f64], now: &[f64], search: bool) -> Result<Lines, ArmFault> {
         let arm = self.room.arm;
         let (push, fault) = line(arm, [&self.ends[0], &self.ends[1]], posture);
         fault.map_or(Ok(()), Err)?;
@@ -181,7 +184,7 @@ impl Push<'_> {
         if self.set_down {
             let mut up = self.risen(&self.ends[0], posture, &self.before)?;
             up.reverse();
-            lines.way = way(self.room, now, &up[0], &self.before)?;
+            lines.way = way(self.room, [now, &up[0]], &self.before, search)?;
             lines.down = up;
         }
         if let Some(back) = &self.back {
@@ -194,20 +197,25 @@ impl Push<'_> {
         Ok(lines)
     }
 
-    /// Computes a vertical line upwards, as far as reachable.
+    /// Computes a vertical line upwards, as far as reachable. An arm whose joints all move
+    /// horizontally stays where it is.
     fn risen(
         &self,
         from: &Pose3,
         posture: &[f64],
         objects: &[(&str, PlacedHull)],
     ) -> Result<Vec<Vec<f64>>, ArmFault> {
+        let arm = self.room.arm;
+        if level(arm, &frames(arm, posture), 0.0).is_some() {
+            return Ok(vec![posture.to_vec()]);
+        }
         let mut to = *from;
-        to.position.z += self.rise.max(self.least);
+        to.position.z += self.rise.max(LEAST);
         let (points, fault) = line(self.room.arm, [from, &to], posture);
         let reached = points
             .last()
             .map_or(0.0, |last| flange_at(self.room.arm, last).position.z - from.position.z);
-        if let Some(fault) = fault.filter(|_| reached < self.least) {
+        if let Some(fault) = fault.filter(|_| reached < LEAST) {
             return Err(fault);
         }
         self.clear(&points, objects)?;
@@ -217,7 +225,7 @@ impl Push<'_> {
     /// Checks that the arm without its tool is collision-free.
     fn clear(&self, points: &[Vec<f64>], objects: &[(&str, PlacedHull)]) -> Result<(), ArmFault> {
         for point in points {
-            if let Some(between) = self.room.met(&self.room.stance(point), objects, false) {
+            if let Some(between) = self.room.met(&self.room.stance(point), objects, None) {
                 return Err(ArmFault::Collides { between });
             }
         }
@@ -225,50 +233,12 @@ impl Push<'_> {
     }
 }
 
-/// Returns joint positions from `from` to `to` with the tool lifted, without collisions: `to` alone
-/// if possible, otherwise through the rotated home configuration.
-fn way(
-    room: &Room<'_>,
-    from: &[f64],
-    to: &[f64],
-    objects: &[(&str, PlacedHull)],
-) -> Result<Vec<Vec<f64>>, ArmFault> {
-    let Some(between) = swept(room, [from, to], objects) else { return Ok(vec![to.to_vec()]) };
-    let folded = |at: &[f64]| {
-        let mut folded = room.arm.home.clone();
-        folded[0] = at[0];
-        folded
-    };
-    let by = [folded(from), folded(to), to.to_vec()];
-    let mut at = from;
-    for next in &by {
-        if swept(room, [at, next], objects).is_some() {
-            return Err(ArmFault::NoWay { between });
-        }
-        at = next;
-    }
-    Ok(by.to_vec())
-}
-
-/// Returns the first collision on linear joint motion.
-fn swept(
-    room: &Room<'_>,
-    [from, to]: [&[f64]; 2],
-    objects: &[(&str, PlacedHull)],
-) -> Option<[String; 2]> {
-    let far = from.iter().zip(to).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    let steps = (far / LOOK).ceil().max(1.0) as usize;
-    (0..=steps).find_map(|step| {
-        let share = step as f64 / steps as f64;
-        let at: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + share * (b - a)).collect();
-        room.met(&room.stance(&at), objects, true)
-    })
-}
-
 /// Returns a configuration with the first joint rotated so that the flange faces a target.
 fn facing(arm: &Arm, posture: &[f64], target: &Pose3) -> Vec<f64> {
     let mut turned = posture.to_vec();
-    let angle = |pose: &Pose3| pose.position.y.atan2(pose.position.x);
-    turned[0] += pushplan::geometry::wrap_angle(angle(target) - angle(&flange_at(arm, posture)));
+    let from = |pose: &Pose3| pose.position - arm.base.position;
+    let angle = |pose: &Pose3| from(pose).y.atan2(from(pose).x);
+    turned[first_turn(arm)] +=
+        pushplan::geometry::wrap_angle(angle(target) - angle(&flange_at(arm, posture)));
     turned
 }

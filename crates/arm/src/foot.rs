@@ -9,7 +9,8 @@ use super::model::Arm;
 /// arm, as far as they are above the table.
 pub(super) fn foot(arm: &Arm) -> Vec<Obstacle> {
     let Some(root) = arm.bodies.first() else { return Vec::new() };
-    let boxes = root.solids.iter().filter_map(|solid| {
+    let beside = arm.beside.iter().flat_map(|body| &body.solids);
+    let boxes = root.solids.iter().chain(beside).filter_map(|solid| {
         let radius = Vector3::repeat(solid.radius);
         let corners = solid.points.iter().map(|point| arm.base.point(*point));
         let (low, high) = corners.fold(

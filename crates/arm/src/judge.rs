@@ -9,8 +9,9 @@ use pushplan::task::{Plan, Push, PushForm, PushStep};
 
 use super::kinematics::{dexterity, flange, frames};
 use super::pace::{hasty, uneven, unrested};
-use super::path::{DEXTERITY, SHARE, USUAL_SPEED};
+use super::path::DEXTERITY;
 use super::room::Room;
+use super::strain::{self, SHARES, Strain};
 
 /// Tolerance of the tool pose during a push, and the lever arm that weights rotations, metres.
 const OFF: f64 = 1e-3;
@@ -18,9 +19,6 @@ const ARM: f64 = 0.1;
 
 /// Interval of checks on joint motion, radians or metres.
 const LOOK: f64 = 0.05;
-
-/// Tolerance for rounding, in radians and metres, and as a share of a speed.
-const SLACK: f64 = 1e-6;
 
 /// Factor by which rounding may reduce the dexterity.
 const NEARER: f64 = 0.9;
@@ -67,11 +65,13 @@ pub fn judge(
             // The tool is drawn back along the last push, and lowered at the start of the next.
             let beside = if point < begin { &before[..] } else { &steps[k..=k] };
             let lowered = lowered(arm, beside, &samples).filter(|_| !pushing);
-            limits(arm, path, point, (&samples, pushing))
-                .or_else(|| pushing.then(|| off(arm, step, &samples)).flatten())
+            pushing
+                .then(|| off(arm, step, &samples))
+                .flatten()
+                .or_else(|| limits(arm, path, point, (&samples, pushing)))
                 .or_else(|| lowered.as_ref().and_then(|(step, poses)| hasty(step, poses, time)))
                 .or_else(|| {
-                    let carried = !pushing && lowered.is_none();
+                    let carried = (!pushing && lowered.is_none()).then_some(0.0);
                     let met = |at: &Vec<f64>| room.met(&room.stance(at), &objects, carried);
                     let between = samples.iter().find_map(met)?;
                     Some(ArmFault::Collides { between })
@@ -102,33 +102,18 @@ fn samples(path: &JointTrajectory, point: usize) -> Vec<Vec<f64>> {
     (0..=count).map(|k| path.between(point, k as f64 / count as f64)).collect()
 }
 
-/// Checks the limits of positions and speeds. A joint without a stated speed limit is limited
-/// between pushes, where the planner chooses its speed.
+/// Checks the limits of positions, speeds, accelerations and jerks.
 fn limits(
     arm: &Arm,
     path: &JointTrajectory,
     point: usize,
     (samples, pushing): (&[Vec<f64>], bool),
 ) -> Option<ArmFault> {
-    let time = path.points[point + 1].time - path.points[point].time;
-    let each = time / (samples.len() - 1) as f64;
-    for (k, joint) in arm.joints.iter().enumerate() {
-        if let Some([low, high]) = joint.limits
-            && samples.iter().any(|at| at[k] < low - SLACK || at[k] > high + SLACK)
-        {
-            return Some(ArmFault::Limit { joint: joint.name.clone() });
-        }
-        let mean = samples.windows(2).map(|pair| (pair[1][k] - pair[0][k]).abs() / each);
-        let ends = [point, point + 1].map(|end| path.points[end].velocities[k].abs());
-        let needed = mean.fold(ends[0].max(ends[1]), f64::max);
-        let usual = (!pushing).then_some(USUAL_SPEED / SHARE);
-        if let Some(limit) = joint.max_speed.or(usual)
-            && needed > limit * (1.0 + SLACK)
-        {
-            return Some(ArmFault::TooFast { joint: joint.name.clone(), needed, limit });
-        }
-    }
-    None
+    let count = samples.len().max(SHARES.len()) - 1;
+    let shares: Vec<f64> = (0..=count).map(|k| k as f64 / count as f64).collect();
+    let mut found = Strain::default();
+    strain::add(arm, path, point, &shares, (1.0, pushing), &mut found);
+    found.fault(arm)
 }
 
 /// Returns the pose of the end effector, at the tool's underside, for joint positions.

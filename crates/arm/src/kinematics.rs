@@ -1,6 +1,6 @@
 //! Forward kinematics and Jacobian.
 
-use nalgebra::{Matrix6, Matrix6xX, Vector6};
+use nalgebra::{Matrix2, Matrix4, Matrix4xX, Matrix6xX, Vector6};
 
 use super::model::Arm;
 use pushplan::geometry::{Pose3, Vector3};
@@ -8,6 +8,12 @@ use pushplan::geometry::{Pose3, Vector3};
 /// Lever arm that weights rotations against translations, metres: about the distance of a tool's
 /// parts from the flange.
 const LEVER: f64 = 0.2;
+
+/// Motion per unit of a joint below which a joint counts as horizontal.
+const LEVEL: f64 = 1e-6;
+
+/// Tilt per radian of a joint below which it is not counteracted: axes in files are rounded.
+const LEAST_TILT: f64 = 0.02;
 
 /// Returns the world frames of the bodies of an arm: the base, then the body of each joint.
 pub fn frames(arm: &Arm, positions: &[f64]) -> Vec<Pose3> {
@@ -48,11 +54,36 @@ pub(super) fn twist(from: &Pose3, to: &Pose3) -> Vector6<f64> {
     Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)
 }
 
-/// Returns the smallest singular value of the Jacobian, metres per radian, with rotations weighted
-/// by a lever arm of 20 cm. The value is zero at a singular configuration.
+/// Returns the height of the tool's underside above its height in a push, metres, for an arm whose
+/// joints all move horizontally; `None` for other arms.
+pub(super) fn level(arm: &Arm, frames: &[Pose3], lift: f64) -> Option<f64> {
+    let at = flange(arm, frames);
+    let jacobian = jacobian(arm, frames, at.position);
+    let down = (at.rotation * Vector3::z()).z < -1.0 + LEVEL;
+    let moves = jacobian.rows(2, 3).amax();
+    (moves < LEVEL && down).then(|| at.position.z - arm.mount.length - lift)
+}
+
+/// Returns the smallest speed of the tool in any direction that pushing needs, for joints that move
+/// at one radian per second, metres per radian. These directions are the position in the plane, the
+/// height, and the rotation about the vertical, weighted by a lever arm of 20 cm. The tool must not
+/// tilt meanwhile. The value is zero at a singular configuration.
+///
+/// The height does not count for an arm whose joints all move horizontally.
 pub fn dexterity(arm: &Arm, frames: &[Pose3]) -> f64 {
     let mut jacobian = jacobian(arm, frames, flange(arm, frames).position);
-    jacobian.rows_mut(3, 3).scale_mut(LEVER);
-    let square: Matrix6<f64> = &jacobian * jacobian.transpose();
-    square.symmetric_eigenvalues().min().max(0.0).sqrt()
+    let tilts = jacobian.fixed_rows::<2>(3).into_owned();
+    let level = jacobian.row(2).amax().max(tilts.amax()) < LEVEL;
+    jacobian.row_mut(5).scale_mut(LEVER);
+    // Rows: two for the plane, height, rotation.
+    let moves = Matrix4xX::from_rows(&[0, 1, 2, 5].map(|row| jacobian.row(row).into_owned()));
+    let square = tilts.clone() * tilts.transpose() + Matrix2::identity() * LEAST_TILT.powi(2);
+    let across = &moves * tilts.transpose();
+    let held =
+        square.try_inverse().map_or(Matrix4::zeros(), |one| across * one * across.transpose());
+    let mut free: Matrix4<f64> = &moves * moves.transpose() - held;
+    if level {
+        free[(2, 2)] = 1.0;
+    }
+    free.symmetric_eigenvalues().min().max(0.0).sqrt()
 }

@@ -17,8 +17,9 @@
 //! - `kinematics`: frames and Jacobian from joint positions; `inverse`: joint positions from a
 //!   pose.
 //! - `room`: collisions of the arm and its tool; `foot`: the root link as obstacles.
-//! - `path`, `follow`: conversion of a plan to a
+//! - `path`, `free`, `follow`: conversion of a plan to a
 //!   [`JointTrajectory`](pushplan::scene::JointTrajectory).
+//! - `timing`: speeds along the path, within the limits of the joints, which `strain` measures.
 //! - `judge`, `pace`: independent check of such a trajectory from its numbers only.
 //!
 //! The response of the table is not modelled here.
@@ -35,6 +36,7 @@
 mod find;
 mod follow;
 mod foot;
+mod free;
 mod hull;
 mod inverse;
 mod judge;
@@ -47,6 +49,8 @@ mod path;
 mod places;
 mod read;
 mod room;
+mod strain;
+mod timing;
 #[cfg(feature = "urdf")]
 mod urdf;
 

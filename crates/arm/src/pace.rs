@@ -50,7 +50,8 @@ pub(super) fn uneven(
     let (push, heading) = (&step.push, step.push.heading());
     let fault = |speed: f64| ArmFault::Pace { speed, planned: push.speed };
     let duration = path.points[end].time - path.points[begin].time;
-    let longest = (push.length + 2.0 * SPACING) / push.speed;
+    // Ramps of up to two intervals each take twice as long.
+    let longest = (push.length + 4.0 * SPACING) / push.speed;
     if duration < push.duration() / (1.0 + EVEN) || duration > longest * (1.0 + EVEN) {
         return Some(fault(push.length / duration));
     }

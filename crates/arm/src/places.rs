@@ -1,4 +1,7 @@
 //! Feasible tool poses of an arm over the table: a cheap test that precedes all others.
+//!
+//! The planner measures reach from the origin of the world. The annulus of an arm that stands
+//! elsewhere is therefore also checked here.
 
 use std::f64::consts::TAU;
 
@@ -27,6 +30,13 @@ pub struct Places {
     /// more. Files store it as a text of 0 and 1.
     #[serde(with = "bits")]
     pub free: Vec<bool>,
+    /// Centre of the annulus in the world, metres: the vertical axis of the arm, or its base.
+    #[serde(default = "Vector::zeros", skip_serializing_if = "is_origin")]
+    pub centre: Vector,
+}
+
+fn is_origin(centre: &Vector) -> bool {
+    *centre == Vector::zeros()
 }
 
 impl Places {
@@ -38,11 +48,22 @@ impl Places {
         sound && (self.free.is_empty() || self.step >= FINEST && counted)
     }
 
+    /// Returns the smallest and the largest distance of the annulus from the world's origin,
+    /// metres.
+    pub fn ring_about_origin(&self) -> [f64; 2] {
+        let ([near, far], away) = (self.ring, self.centre.norm());
+        [(near - away).max(away - far).max(0.0), far + away]
+    }
+
     /// Returns `true` if a tool may be held at a position with the end effector rotated by `yaw`
     /// radians. The result is `false` only if no sampled pose around it is feasible.
     pub fn allow(&self, position: Vector, yaw: f64) -> bool {
+        let position = position - self.centre;
         if self.free.is_empty() {
-            return true;
+            let [near, far] = self.ring;
+            let slack = self.step;
+            return self.centre == Vector::zeros()
+                || (near - slack..=far + slack).contains(&position.norm());
         }
         let turn = (yaw - position.y.atan2(position.x)).rem_euclid(TAU) / TAU * self.turns as f64;
         let (ring, turn) = (position.norm() / self.step, turn.floor() as usize);
@@ -81,7 +102,7 @@ mod tests {
     fn places_are_refused_only_where_nothing_around_them_is_free() {
         let mut free = vec![false; 4 * 8];
         free[2 * 8] = true;
-        let places = Places { ring: [0.2, 0.3], step: 0.1, turns: 8, free };
+        let places = Places { ring: [0.2, 0.3], step: 0.1, turns: 8, free, ..Places::default() };
         let text = serde_json::to_string(&places).expect("JSON");
         assert!(places.known() && text.contains("00010000"), "{text}");
         assert_eq!(serde_json::from_str::<Places>(&text).expect("places"), places);
@@ -92,5 +113,13 @@ mod tests {
         // Only the rotation relative to the radial direction counts.
         assert!(places.allow(Vector::new(0.0, 0.2), TAU / 4.0));
         assert!(Places::default().allow(Vector::new(9.0, 0.0), 0.0));
+        // The annulus of an arm that stands elsewhere.
+        let centre = Vector::new(0.0, -0.5);
+        let moved = Places { centre, ..places };
+        assert!(
+            moved.allow(Vector::new(0.2, -0.5), 0.0) && !moved.allow(Vector::new(0.2, 0.0), 0.0)
+        );
+        let [near, far] = moved.ring_about_origin();
+        assert!((near - 0.2).abs() < 1e-12 && (far - 0.8).abs() < 1e-12);
     }
 }

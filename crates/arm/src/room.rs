@@ -1,7 +1,7 @@
 //! Collisions of an arm with a tool: with itself, the table, and bodies on it.
 
 use super::hull::{Hull, PlacedHull};
-use super::model::Arm;
+use super::model::{Arm, ArmBody};
 use pushplan::geometry::{Pose3, Vector3};
 use pushplan::scene::{Object, Scene, State, Tool};
 
@@ -25,8 +25,13 @@ pub fn pairs(arm: &Arm) -> Vec<[usize; 2]> {
     let room = Room::empty(arm);
     let stances: Vec<Stance> = (0..POSTURES).map(|k| room.stance(&start(arm, k))).collect();
     let home = room.stance(&arm.home);
-    let count = arm.bodies.len();
-    let all = (0..count).flat_map(|first| (first + 2..count).map(move |second| [first, second]));
+    // Links beside the arm do not move, like its base.
+    let [count, all] = [arm.bodies.len(), arm.links().count()];
+    let apart = |second: usize| if second < count { second.saturating_sub(1) } else { count };
+    let all = (0..all).flat_map(|second| {
+        let first = if second < count { 0 } else { 1 };
+        (first..apart(second)).map(move |first| [first, second])
+    });
     let apart = |[a, b]: &[usize; 2]| {
         let touch = |stance: &Stance| touching(&stance.bodies[*a], &stance.bodies[*b], 0.0);
         let often = stances.iter().filter(|stance| touch(stance) == Some(true)).count();
@@ -94,15 +99,12 @@ impl<'a> Room<'a> {
         let frames = frames(self.arm, positions);
         let bodies = self
             .arm
-            .bodies
-            .iter()
-            .zip(&frames)
+            .links()
+            .zip(frames.iter().chain(std::iter::repeat(&self.arm.base)))
             .map(|(body, frame)| body.solids.iter().map(|hull| hull.placed(frame)).collect());
+        let bodies = bodies.collect();
         let flange = flange(self.arm, &frames);
-        Stance {
-            bodies: bodies.collect(),
-            tool: self.tool.iter().map(|hull| hull.placed(&flange)).collect(),
-        }
+        Stance { bodies, tool: self.tool.iter().map(|hull| hull.placed(&flange)).collect() }
     }
 
     /// Returns the placed objects of a state.
@@ -114,25 +116,30 @@ impl<'a> Room<'a> {
     }
 
     /// Returns the names of the first colliding pair, if any: bodies of the arm, table, obstacles
-    /// and `objects`. The tool counts only if it is `carried`, because it touches objects when it
-    /// pushes.
+    /// and `objects`. The tool counts only if it is `carried` at a distance from them, metres,
+    /// because it touches objects when it pushes.
     pub fn met(
         &self,
         stance: &Stance,
         objects: &[(&str, PlacedHull)],
-        carried: bool,
+        carried: Option<f64>,
     ) -> Option<[String; 2]> {
-        let name = |k: usize| self.arm.bodies[k].name.clone();
+        let links: Vec<&ArmBody> = self.arm.links().collect();
+        let name = |k: usize| links[k].name.clone();
         for [a, b] in &self.arm.pairs {
             if touching(&stance.bodies[*a], &stance.bodies[*b], 0.0) == Some(true) {
                 return Some([name(*a), name(*b)]);
             }
         }
-        let last = stance.bodies.len().saturating_sub(2);
+        let count = self.arm.bodies.len();
         for (k, body) in stance.bodies.iter().enumerate() {
             // The last two bodies are next to the tool in all configurations.
-            if k < last && touching(body, &stance.tool, 0.0) == Some(true) {
+            let beside = k >= count;
+            if (beside || k + 2 < count) && touching(body, &stance.tool, 0.0) == Some(true) {
                 return Some([name(k), TOOL.into()]);
+            }
+            if beside {
+                continue;
             }
             if k >= self.above && body.iter().any(|hull| hull.lowest() < APART) {
                 return Some([name(k), "table".into()]);
@@ -144,12 +151,10 @@ impl<'a> Room<'a> {
                 return Some([name(k), other]);
             }
         }
-        if !carried {
-            return None;
-        }
+        let apart = carried?;
         let mut others = self.obstacles.iter().chain(objects);
         let inside =
-            |other: &PlacedHull| stance.tool.iter().any(|part| part.gap(other, 0.0) <= 0.0);
+            |other: &PlacedHull| stance.tool.iter().any(|part| part.gap(other, apart) <= apart);
         if let Some((other, _)) = others.find(|(_, other)| inside(other)) {
             return Some([TOOL.into(), (*other).to_owned()]);
         }

@@ -1,6 +1,6 @@
 //! Reader for the kinematic chain of an arm in a URDF.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use roxmltree::{Document, Node};
@@ -12,14 +12,25 @@ use super::places::Places;
 use pushplan::asset::read_text;
 use pushplan::geometry::{Footprint, Pose3, Turn3, Vector3};
 use pushplan_import::Outline;
-use pushplan_import::foreign::urdf::{Geometry, Origin, axis, end, geometry, limit, origin};
-use pushplan_import::foreign::xml::{Flaw, element, elements};
+use pushplan_import::foreign::urdf::{Geometry, Origin, axis, end, geometry, origin};
+use pushplan_import::foreign::xml::{Flaw, element, elements, number};
 use pushplan_import::foreign::{Refused, load};
 
 use super::read::Wrong;
 
 /// Largest plausible length, metres, and mesh coordinate, in the mesh's own unit.
 const FARTHEST: f64 = 1e5;
+
+/// Magnitude from which a limit of a joint stands for none: positions and speeds in radians or
+/// metres, and their derivatives.
+const NO_POSITION: f64 = 1e3;
+const NO_RATE: f64 = 1e6;
+
+/// Range of a joint whose only other limit stands for none, radians and metres.
+const OPEN: [f64; 2] = [4.0 * std::f64::consts::PI, 2.0];
+
+/// Remedy for a file of macros.
+const EXPAND: &str = "expand its macros first: `xacro FILE > arm.urdf`, then name arm.urdf here";
 
 /// URDF file with its parsed document.
 struct File<'a> {
@@ -33,10 +44,8 @@ pub(crate) fn chain(path: &Path, flange: &str) -> Result<Arm, Wrong> {
     let (_, text) = read_text(path)
         .map_err(|fault| (format!("{}: {}", fault.file, fault.message), fault.advice))?;
     let document = Document::parse(&text).map_err(|error| {
-        (
-            format!("{}: not valid XML: {error}", path.display()),
-            "is this the right file?".to_owned(),
-        )
+        let advice = if text.contains("<xacro:") { EXPAND } else { "is this the right file?" };
+        (format!("{}: not valid XML: {error}", path.display()), advice.to_owned())
     })?;
     let file = File { path, document: &document };
     let root = document.root_element();
@@ -47,7 +56,18 @@ pub(crate) fn chain(path: &Path, flange: &str) -> Result<Arm, Wrong> {
             "is this the right file?",
         ));
     }
+    if let Some(macros) = root.descendants().find(|node| has_macros(*node)) {
+        return Err(file.wrong(macros, "this is a xacro file, not a URDF", EXPAND));
+    }
     file.arm(root, flange)
+}
+
+/// Returns `true` for an element of xacro, or one with an expression of xacro.
+fn has_macros(node: Node) -> bool {
+    let space = node.tag_name().namespace();
+    let expression = |text: &str| text.contains("${") || text.contains("$(");
+    space.is_some_and(|space| space.contains("xacro"))
+        || node.attributes().any(|attribute| expression(attribute.value()))
 }
 
 impl<'a> File<'a> {
@@ -63,10 +83,10 @@ impl<'a> File<'a> {
 
     fn arm(&self, root: Node<'a, 'a>, flange: &str) -> Result<Arm, Wrong> {
         let named = |tag: &'static str| elements(root).filter(move |node| node.has_tag_name(tag));
-        let links: HashMap<&str, Node> =
+        let links: BTreeMap<&str, Node> =
             named("link").filter_map(|node| Some((node.attribute("name")?, node))).collect();
         // Joints by child link.
-        let mut joints: HashMap<&str, Node> = HashMap::new();
+        let mut joints: BTreeMap<&str, Node> = BTreeMap::new();
         for joint in named("joint") {
             if joints.insert(end(joint, "child"), joint).is_some() {
                 let message =
@@ -100,98 +120,131 @@ impl<'a> File<'a> {
             base: Pose3::default(),
             joints: Vec::new(),
             bodies: vec![ArmBody { name: link.to_owned(), solids: Vec::new() }],
+            beside: Vec::new(),
             pairs: Vec::new(),
             flange: Pose3::default(),
             mount: ToolMount { length: 0.0, yaw: 0.0 },
             home: Vec::new(),
             places: Places::default(),
         };
-        let branches = Branches { links: &links, joints: &joints, flange };
-        let on_chain: Vec<&str> = chain.iter().map(|joint| end(*joint, "child")).collect();
+        let mut on_chain: Vec<&str> = chain.iter().map(|joint| end(*joint, "child")).collect();
+        on_chain.push(link);
+        let branches = Branches { links: &links, joints: &joints, flange, on_chain: &on_chain };
         let mut pose = Pose3::default();
-        self.collect(&branches, (link, pose, true), &on_chain, &mut arm.bodies[0].solids)?;
+        self.collect(&branches, (link, pose), &mut arm)?;
         for joint in chain {
             let child = end(joint, "child");
             pose = pose * self.origin(joint)?;
-            if joint.attribute("type") != Some("fixed") {
-                arm.joints.push(self.joint(joint, pose)?);
-                arm.bodies.push(ArmBody { name: child.to_owned(), solids: Vec::new() });
-                pose = Pose3::default();
+            match self.leader(&branches, joint)? {
+                _ if joint.attribute("type") == Some("fixed") => (),
+                Some(position) => {
+                    pose = self.joint(joint, pose)?.pose(position);
+                }
+                None => {
+                    arm.joints.push(self.joint(joint, pose)?);
+                    arm.bodies.push(ArmBody { name: child.to_owned(), solids: Vec::new() });
+                    pose = Pose3::default();
+                }
             }
-            let resting = arm.joints.is_empty();
-            if let Some(body) = arm.bodies.last_mut() {
-                self.collect(&branches, (child, pose, resting), &on_chain, &mut body.solids)?;
-            }
+            self.collect(&branches, (child, pose), &mut arm)?;
         }
         arm.flange = pose;
         arm.home = arm.joints.iter().map(ArmJoint::middle).collect();
         Ok(arm)
     }
 
-    /// Collects the solids of a link, and of links that are fixed to it outside the chain. Other
-    /// joints outside the chain count as fixed if they are `resting`, as in a second arm.
+    /// Collects the solids of a link on the chain, and of its other branches at rest, such as a
+    /// gripper. Links on movable branches of the resting part of the arm, such as a second arm, are
+    /// collected as separate bodies.
     fn collect(
         &self,
         branches: &Branches<'_, 'a>,
-        (link, pose, resting): (&str, Pose3, bool),
-        on_chain: &[&str],
-        solids: &mut Vec<Hull>,
+        (link, pose): (&'a str, Pose3),
+        arm: &mut Arm,
     ) -> Result<(), Wrong> {
-        let mut left = vec![(link, pose)];
+        let resting = arm.joints.is_empty();
+        let mut left = vec![(link, pose, false)];
         let mut seen = 0;
-        while let Some((link, pose)) = left.pop() {
+        while let Some((link, pose, beside)) = left.pop() {
+            let mut solids = Vec::new();
             if let Some(node) = branches.links.get(link) {
                 for collision in elements(*node).filter(|node| node.has_tag_name("collision")) {
                     solids.push(self.solid(collision, &pose)?);
                 }
             }
+            match arm.bodies.last_mut() {
+                _ if beside && solids.is_empty() => (),
+                Some(body) if !beside => body.solids.extend(solids),
+                _ => arm.beside.push(ArmBody { name: link.to_owned(), solids }),
+            }
             seen += 1;
             if link == branches.flange || seen > branches.links.len() {
                 continue;
             }
-            let mut fixed: Vec<_> = branches.joints.iter().collect();
-            fixed.sort_by_key(|(child, _)| **child);
-            for (child, joint) in fixed {
-                let beside = !on_chain.contains(child);
-                let fixed = joint.attribute("type") == Some("fixed");
-                if beside && end(*joint, "parent") == link && (fixed || resting) {
+            for (child, joint) in branches.joints {
+                if !branches.on_chain.contains(child) && end(*joint, "parent") == link {
                     let origin = pose * self.origin(*joint)?;
-                    // Joints of kinds that no arm has, such as mimicking fingers, are left out.
-                    let at = if fixed { Some(origin) } else { self.rest_of(*joint, origin) };
-                    left.extend(at.map(|at| (*child, at)));
+                    let moves = joint.attribute("type") != Some("fixed");
+                    // Joints of kinds that no arm has are at their origin.
+                    let at = match self.joint(*joint, origin) {
+                        Ok(one) if moves => one.pose(match self.leader(branches, *joint)? {
+                            Some(position) => position,
+                            None => one.rest(),
+                        }),
+                        _ => origin,
+                    };
+                    left.push((child, at, beside || resting && moves));
                 }
             }
         }
         Ok(())
     }
 
-    /// Returns the frame of a joint at rest; `None` for joints of kinds that no arm has.
-    fn rest_of(&self, joint: Node<'a, 'a>, origin: Pose3) -> Option<Pose3> {
-        self.joint(joint, origin).ok().map(|joint| joint.at_rest())
+    /// Returns the position of a joint that follows another one at rest (`mimic`); `None` if it
+    /// follows none.
+    fn leader(
+        &self,
+        branches: &Branches<'_, 'a>,
+        joint: Node<'a, 'a>,
+    ) -> Result<Option<f64>, Wrong> {
+        let Some(mimic) = element(joint, "mimic") else { return Ok(None) };
+        let number = |name: &str, usual: f64| match mimic.attribute_node(name) {
+            Some(stated) => number(stated).map_err(|flaw| self.flawed(flaw)),
+            None => Ok(usual),
+        };
+        let [factor, offset] = [number("multiplier", 1.0)?, number("offset", 0.0)?];
+        let led =
+            branches.joints.values().find(|one| one.attribute("name") == mimic.attribute("joint"));
+        let Some(leader) = led.filter(|leader| element(**leader, "mimic").is_none()) else {
+            let message =
+                "this joint follows (<mimic>) a joint that does not exist or follows another";
+            return Err(self.wrong(joint, message, "name the leading joint"));
+        };
+        let follows = branches.on_chain.contains(&end(joint, "child"));
+        if follows && branches.on_chain.contains(&end(*leader, "child")) {
+            let name = joint.attribute("name").unwrap_or_default();
+            let message = format!(
+                "joint `{name}` follows another joint of the arm (<mimic>), which is not supported"
+            );
+            return Err(self.wrong(joint, message, "choose a `flange` before it"));
+        }
+        Ok(Some(factor * self.joint(*leader, Pose3::default())?.rest() + offset))
     }
 
     fn joint(&self, joint: Node<'a, 'a>, origin: Pose3) -> Result<ArmJoint, Wrong> {
         let name = joint.attribute("name").unwrap_or_default().to_owned();
         let axis = axis(joint).map_err(|flaw| self.flawed(flaw))?;
-        if element(joint, "mimic").is_some() {
-            let message =
-                format!("joint `{name}` follows another joint (<mimic>), which is not supported");
-            return Err(self.wrong(joint, message, "choose a `flange` before it"));
-        }
         let kind = joint.attribute("type").unwrap_or_default();
         let slides = kind == "prismatic";
-        let number = |name: &str| limit(joint, name).map_err(|flaw| self.flawed(flaw));
-        let [lower, upper, speed] = [number("lower")?, number("upper")?, number("velocity")?];
+        let limit = element(joint, "limit");
+        let rate = |name: &str| {
+            let rate = self.bound((joint, limit), name, NO_RATE)?;
+            Ok::<_, Wrong>(rate.filter(|rate| *rate > 0.0 && rate.is_finite()))
+        };
         let limits = match kind {
             "continuous" => None,
             "revolute" | "prismatic" => {
-                let limits = [lower.unwrap_or(0.0), upper.unwrap_or(0.0)];
-                if limits[0] >= limits[1] {
-                    let message = format!("joint `{name}` has an empty range of positions");
-                    let advice = "write <limit lower=... upper=.../>, or the type `continuous`";
-                    return Err(self.wrong(joint, message, advice));
-                }
-                Some(limits)
+                self.limits((joint, &name), limit, OPEN[usize::from(slides)])?
             }
             other => {
                 let message = format!("joint `{name}` has the type `{other}`");
@@ -199,14 +252,54 @@ impl<'a> File<'a> {
                 return Err(self.wrong(joint, message, advice));
             }
         };
-        Ok(ArmJoint {
-            name,
-            slides,
-            origin,
-            axis,
-            limits,
-            max_speed: speed.filter(|speed| *speed > 0.0),
+        let max_speed = rate("velocity")?.filter(|speed| *speed < NO_POSITION);
+        let [max_acceleration, max_jerk] = [rate("acceleration")?, rate("jerk")?];
+        Ok(ArmJoint { name, slides, origin, axis, limits, max_speed, max_acceleration, max_jerk })
+    }
+
+    /// Returns the position limits of a joint, narrowed by its soft limits; `None` without limits.
+    fn limits(
+        &self,
+        (joint, name): (Node<'a, 'a>, &str),
+        limit: Option<Node<'a, 'a>>,
+        open: f64,
+    ) -> Result<Option<[f64; 2]>, Wrong> {
+        let bound = |of, name: &str| self.bound((joint, of), name, NO_POSITION);
+        let [low, high] =
+            [bound(limit, "lower")?, bound(limit, "upper")?].map(Option::unwrap_or_default);
+        let soft = element(joint, "safety_controller");
+        let soft = [bound(soft, "soft_lower_limit")?, bound(soft, "soft_upper_limit")?];
+        let narrow = [low.max(soft[0].unwrap_or(low)), high.min(soft[1].unwrap_or(high))];
+        let [low, high] = if narrow[0] < narrow[1] { narrow } else { [low, high] };
+        if low >= high {
+            let message = format!("joint `{name}` has an empty range of positions");
+            let advice = "write <limit lower=... upper=.../>, or the type `continuous`";
+            return Err(self.wrong(joint, message, advice));
+        }
+        Ok(match [low.is_finite(), high.is_finite()] {
+            [true, true] => Some([low, high]),
+            [true, false] => Some([low, low + open]),
+            [false, true] => Some([high - open, high]),
+            [false, false] => None,
         })
+    }
+
+    /// Returns a number of an element, infinite if its magnitude stands for none; `None` if it is
+    /// not stated.
+    fn bound(
+        &self,
+        (joint, of): (Node<'a, 'a>, Option<Node<'a, 'a>>),
+        name: &str,
+        none: f64,
+    ) -> Result<Option<f64>, Wrong> {
+        let Some(stated) = of.and_then(|of| of.attribute_node(name)) else { return Ok(None) };
+        match stated.value().trim().parse::<f64>() {
+            Ok(value) if value.abs() >= none => Ok(Some(value.signum() * f64::INFINITY)),
+            Ok(value) if value.is_nan() => {
+                Err(self.wrong(joint, format!("`{name}` is not a number"), "write a number"))
+            }
+            _ => number(stated).map(Some).map_err(|flaw| self.flawed(flaw)),
+        }
     }
 
     fn solid(&self, collision: Node<'a, 'a>, pose: &Pose3) -> Result<Hull, Wrong> {
@@ -276,7 +369,9 @@ impl<'a> File<'a> {
 
 /// Links and joints of the kinematic tree.
 struct Branches<'b, 'a> {
-    links: &'b HashMap<&'a str, Node<'a, 'a>>,
-    joints: &'b HashMap<&'a str, Node<'a, 'a>>,
+    links: &'b BTreeMap<&'a str, Node<'a, 'a>>,
+    joints: &'b BTreeMap<&'a str, Node<'a, 'a>>,
     flange: &'b str,
+    /// Names of the links from the root to the flange.
+    on_chain: &'b [&'a str],
 }

@@ -45,10 +45,10 @@ const FLAT: f64 = 1e-3;
 
 /// Writes the joint trajectory: a row for each point.
 pub(super) fn way(xml: &mut Xml, path: &JointTrajectory) {
-    xml.comment("Joint trajectory: for each point the time, then positions, then velocities.");
+    xml.comment("Joint trajectory: for each point the time, positions, velocities, accelerations.");
     for (k, point) in path.points.iter().enumerate() {
         let mut row = vec![point.time];
-        row.extend(point.positions.iter().chain(&point.velocities));
+        row.extend(point.positions.iter().chain(&point.velocities).chain(&point.accelerations));
         numeric(xml, &format!("joints {}", k + 1), &row);
     }
     xml.comment("Points at which pushes begin and end, counted from 1.");
@@ -59,7 +59,7 @@ pub(super) fn way(xml: &mut Xml, path: &JointTrajectory) {
 /// Writes the meshes of links.
 pub(super) fn meshes(xml: &mut Xml, arm: &Arm) {
     xml.open("asset", &[]);
-    for body in &arm.bodies {
+    for body in arm.links() {
         for (name, hull) in solids(body) {
             if let Solid::Mesh { points, .. } = solid(hull) {
                 let points: Vec<f64> =
@@ -92,7 +92,9 @@ pub(super) fn bodies(xml: &mut Xml, arm: &Arm, tool: &Tool) {
                 [("pos", "0 0 0".into()), ("mass", numbers(&[BARE])), ("diaginertia", inertia)];
             xml.leaf("inertial", &inertial);
         }
-        for (name, hull) in solids(body) {
+        // Links beside the arm are fixed to its base.
+        let beside = arm.beside.iter().filter(|_| k == 0);
+        for (name, hull) in [body].into_iter().chain(beside).flat_map(solids) {
             geom(xml, name, hull);
         }
     }
@@ -123,7 +125,7 @@ pub(super) fn pairs(arm: &Arm, scene: &Scene, tool: &Tool) -> Vec<Pair> {
     let mut add = |(a, one): (String, f64), (b, other): (String, f64), margin: f64| {
         pairs.push(Pair { geoms: [a, b], friction: 0.5 * (one + other), margin });
     };
-    let links: Vec<_> = arm.bodies.iter().map(|body| solids(body).collect::<Vec<_>>()).collect();
+    let links: Vec<_> = arm.links().map(|body| solids(body).collect::<Vec<_>>()).collect();
     for [a, b] in &arm.pairs {
         for (one, first) in &links[*a] {
             for (other, second) in &links[*b] {
@@ -142,7 +144,9 @@ pub(super) fn pairs(arm: &Arm, scene: &Scene, tool: &Tool) -> Vec<Pair> {
     for (k, (name, hull)) in
         links.iter().enumerate().flat_map(|(k, link)| link.iter().map(move |solid| (k, solid)))
     {
-        let fixed = obstacles.iter().filter(|_| k > 0).chain((k >= above).then_some(&table));
+        let moves = (1..arm.bodies.len()).contains(&k);
+        let table = (moves && k >= above).then_some(&table);
+        let fixed = obstacles.iter().filter(|_| moves).chain(table);
         for other in fixed.chain(&objects) {
             add((name.clone(), FRICTION), other.clone(), margin(hull));
         }

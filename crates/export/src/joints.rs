@@ -1,6 +1,7 @@
 //! Joint trajectories of an arm: `trajectory_msgs/JointTrajectory` of ROS as JSON, and a CSV table.
 
 use std::fmt::Write;
+use std::iter;
 
 use serde_json::json;
 
@@ -32,7 +33,7 @@ pub fn joint_trajectory(plan: &PlanFile) -> Result<String, ExportError> {
             json!({
                 "positions": point.positions,
                 "velocities": point.velocities,
-                "accelerations": [],
+                "accelerations": point.accelerations,
                 "effort": [],
                 "time_from_start": {"sec": sec as i64, "nanosec": (nanos - sec * NANOS) as i64},
             })
@@ -46,15 +47,15 @@ pub fn joint_trajectory(plan: &PlanFile) -> Result<String, ExportError> {
     Ok(format!("{message:#}\n"))
 }
 
-/// Returns the joint trajectory as CSV: a row for each point, with its time, seconds, the positions
-/// and the velocities.
+/// Returns the joint trajectory as CSV: a row for each point, with its time, seconds, then the
+/// positions, velocities and accelerations.
 ///
 /// # Errors
 /// Returns [`ExportError::NoJoints`] for a plan without a joint trajectory.
 pub fn joint_table(plan: &PlanFile) -> Result<String, ExportError> {
     let path = joints(plan)?;
     let mut text = String::from("time");
-    for ending in ["", " velocity"] {
+    for ending in ["", " velocity", " acceleration"] {
         for name in &path.joints {
             // Joint names may contain any character.
             let _ = write!(text, ",\"{}{ending}\"", name.replace('"', "\"\""));
@@ -63,7 +64,9 @@ pub fn joint_table(plan: &PlanFile) -> Result<String, ExportError> {
     text.push('\n');
     for point in &path.points {
         let _ = write!(text, "{:.9}", point.time);
-        for value in point.positions.iter().chain(&point.velocities) {
+        let accelerations = point.accelerations.iter().copied().chain(iter::repeat(0.0));
+        let values = point.positions.iter().chain(&point.velocities).copied();
+        for value in values.chain(accelerations.take(path.joints.len())) {
             let _ = write!(text, ",{value:.9}");
         }
         text.push('\n');

@@ -46,15 +46,34 @@ def robots():
 class Judge:
     """An arm in Pinocchio."""
 
-    def __init__(self, urdf, flange):
-        packages = [str(urdf.parents[4])]
+    def __init__(self, urdf, flange, packages=None, axis="z"):
+        packages = [str(packages or urdf.parents[4])]
         self.model = pin.buildModelFromUrdf(str(urdf))
-        self.solids = pin.buildGeomFromUrdf(self.model, str(urdf), pin.COLLISION, packages)
-        self.solids.addAllCollisionPairs()
-        self.flange = self.model.getFrameId(flange)
-        # Only the chain to the flange is checked, not a gripper.
-        self.chain = set(self.model.supports[self.model.frames[self.flange].parentJoint])
+        try:
+            self.solids = pin.buildGeomFromUrdf(self.model, str(urdf), pin.COLLISION, packages)
+        except ValueError as error:
+            # Pinocchio does not find meshes by the end of their path; pushplan does.
+            print(f"collisions are not checked: {error}", file=sys.stderr)
+            self.solids = pin.GeometryModel()
+        self.flange = self.model.getFrameId(flange, pin.BODY)
+        # Only the chain to the flange is checked, not a gripper, and no neighbours.
+        chain = set(self.model.supports[self.model.frames[self.flange].parentJoint])
+        parents = [solid.parentJoint for solid in self.solids.geometryObjects]
+        for a, first in enumerate(parents):
+            for b, second in enumerate(parents):
+                if first + 1 < second and {first, second} <= chain:
+                    self.solids.addCollisionPair(pin.CollisionPair(a, b))
         self.data = self.model.createData()
+        sign, of = (-1.0 if axis[0] == "-" else 1.0), "xyz".index(axis[-1])
+        out = pin.Quaternion.FromTwoVectors(np.eye(3)[2], sign * np.eye(3)[of])
+        self.out = pin.SE3(out.matrix(), np.zeros(3))
+
+    def pose(self, names, values, base):
+        """Returns the pose of the flange in the world, its z axis pointing out of it."""
+        pin.framesForwardKinematics(self.model, self.data, self.full(names, values))
+        turn = pin.Quaternion(np.array(base["rotation"])).matrix()
+        stand = pin.SE3(turn, np.array(base["position"]))
+        return stand * self.data.oMf[self.flange] * self.out
 
     def full(self, names, values):
         q = pin.neutral(self.model)
@@ -70,31 +89,29 @@ class Judge:
         """Returns colliding pairs of links of the chain, except neighbours."""
         data = self.solids.createData()
         pin.computeCollisions(self.model, self.data, self.solids, data, q, False)
-        found = set()
-        for k, pair in enumerate(self.solids.collisionPairs):
-            a, b = (self.solids.geometryObjects[i] for i in (pair.first, pair.second))
-            joints = sorted([a.parentJoint, b.parentJoint])
-            moving = all(joint in self.chain for joint in joints)
-            if moving and joints[1] - joints[0] > 1 and data.collisionResults[k].isCollision():
-                found.add((a.name, b.name))
-        return found
+        return {
+            (self.solids.geometryObjects[pair.first].name,
+             self.solids.geometryObjects[pair.second].name)
+            for k, pair in enumerate(self.solids.collisionPairs)
+            if data.collisionResults[k].isCollision()
+        }
 
     def faults(self, plan, length):
         """Returns the faults of a plan's joint trajectory."""
         path = plan["joints"]
         names, points, model = path["joints"], path["points"], self.model
         found = []
-        lower, upper, speed = (
-            [float(v[model.joints[model.getJointId(name)].idx_v]) if len(v) == model.nv
-             else float(v[model.joints[model.getJointId(name)].idx_q]) for name in names]
-            for v in (model.lowerPositionLimit, model.upperPositionLimit, model.velocityLimit)
-        )
+        base = plan["task"]["robot"]["arm"]["base"]
+        joints = [model.joints[model.getJointId(name)] for name in names]
+        # A continuous joint has the coordinates cosine and sine, and no limits.
+        lower = [-np.inf if j.nq == 2 else model.lowerPositionLimit[j.idx_q] for j in joints]
+        upper = [np.inf if j.nq == 2 else model.upperPositionLimit[j.idx_q] for j in joints]
+        speed = [model.velocityLimit[j.idx_v] for j in joints]
         home = self.hits(self.full(names, points[0]["positions"]))
         for a, b in zip(points, points[1:]):
-            dt = b["time"] - a["time"]
             for share in (0.0, 0.25, 0.5, 0.75, 1.0):
                 q = between(a, b, share)
-                rate = (between(a, b, share + 1e-4) - between(a, b, share - 1e-4)) / (2e-4 * dt)
+                rate = between(a, b, share, 1)
                 for k, name in enumerate(names):
                     if not lower[k] - 1e-6 <= q[k] <= upper[k] + 1e-6:
                         found.append(f"{name} at {q[k]:.3f}")
@@ -111,9 +128,7 @@ class Judge:
                 for share in shares:
                     nxt = points[min(k + 1, len(points) - 1)]
                     q = between(points[k], nxt, share)
-                    pin.framesForwardKinematics(model, self.data, self.full(names, q))
-                    pose = self.data.oMf[self.flange]
-                    off, turned = self.off(pose, step, length)
+                    off, turned = self.off(self.pose(names, q, base), step, length)
                     worst = max(worst, off)
                     if off > OFF or turned > TURNED:
                         found.append(f"error {off * 1e3:.2f} mm, {math.degrees(turned):.2f} deg")
@@ -123,8 +138,7 @@ class Judge:
                 np.array(step["start"]) + step["length"] * heading(step),
             ]
             for q, goal in zip(ends, goals):
-                pin.framesForwardKinematics(model, self.data, self.full(names, q))
-                if np.linalg.norm(self.data.oMf[self.flange].translation[:2] - goal) > OFF:
+                if np.linalg.norm(self.pose(names, q, base).translation[:2] - goal) > OFF:
                     found.append("a push begins or ends elsewhere")
         return sorted(set(found)), worst
 
@@ -142,15 +156,19 @@ def heading(step):
     return np.array([math.cos(step["direction"]), math.sin(step["direction"])])
 
 
-def between(a, b, s):
-    """Interpolates joint positions between a point and the next."""
+def between(a, b, s, order=0):
+    """Interpolates joint positions, or their derivatives, between a point and the next."""
     dt = b["time"] - a["time"]
-    p, q = np.array(a["positions"]), np.array(b["positions"])
-    v, w = np.array(a["velocities"]), np.array(b["velocities"])
-    return (
-        (2 * s**3 - 3 * s**2 + 1) * p + (s**3 - 2 * s**2 + s) * dt * v
-        + (3 * s**2 - 2 * s**3) * q + (s**3 - s**2) * dt * w
-    )
+    way = np.subtract(b["positions"], a["positions"])
+    v, w = (np.array(point["velocities"]) * dt for point in (a, b))
+    p, q = (np.array(point["accelerations"]) * dt**2 for point in (a, b))
+    powers = [
+        np.array(a["positions"]), v, p / 2, 10 * way - 6 * v - 4 * w - 1.5 * p + q / 2,
+        8 * v + 7 * w - 15 * way + 1.5 * p - q, 6 * way - 3 * v - 3 * w - p / 2 + q / 2,
+    ]
+    for _ in range(order):
+        powers = [n * power for n, power in enumerate(powers)][1:]
+    return sum(power * s**n for n, power in enumerate(powers)) / dt**order
 
 
 def solve(program, task, out, arguments):

@@ -58,19 +58,28 @@ class Arm:
         self.servos = [model.actuator(f"{joint.name}/position").id for joint in joints]
         self.speeds = [model.actuator(f"{joint.name}/speed").id for joint in joints]
         self.times, self.points = rows[:, 0], rows[:, 1 : 1 + len(joints)]
-        self.velocities = rows[:, 1 + len(joints) :]
+        self.velocities = rows[:, 1 + len(joints) : 1 + 2 * len(joints)]
+        self.accelerations = rows[:, 1 + 2 * len(joints) :]
         self.off = 0.0  # maximum error of a joint
 
     def at(self, time):
-        """Returns joint positions and velocities, by cubic interpolation between the points."""
+        """Returns joint positions and velocities between the points, by quintic interpolation, or
+        cubic where points have no accelerations."""
         k = int(np.clip(np.searchsorted(self.times, time) - 1, 0, len(self.times) - 2))
         dt = self.times[k + 1] - self.times[k]
         s = min(max((time - self.times[k]) / dt, 0.0), 1.0)
-        a, b, v, w = *self.points[k : k + 2], *self.velocities[k : k + 2]
-        h = [2 * s**3 - 3 * s**2 + 1, s**3 - 2 * s**2 + s, 3 * s**2 - 2 * s**3, s**3 - s**2]
-        d = [6 * s**2 - 6 * s, 3 * s**2 - 4 * s + 1, 6 * s - 6 * s**2, 3 * s**2 - 2 * s]
-        place = h[0] * a + h[1] * dt * v + h[2] * b + h[3] * dt * w
-        return place, (d[0] * a + d[2] * b) / dt + d[1] * v + d[3] * w
+        a, way = self.points[k], self.points[k + 1] - self.points[k]
+        v, w = self.velocities[k : k + 2] * dt
+        if self.accelerations.size:
+            b, c = self.accelerations[k : k + 2] * dt**2
+            powers = [
+                a, v, b / 2, 10 * way - 6 * v - 4 * w - 1.5 * b + c / 2,
+                8 * v + 7 * w - 15 * way + 1.5 * b - c, 6 * way - 3 * v - 3 * w - b / 2 + c / 2,
+            ]
+        else:
+            powers = [a, v, 3 * way - 2 * v - w, v + w - 2 * way]
+        place = sum(power * s**n for n, power in enumerate(powers))
+        return place, sum(n * power * s ** (n - 1) for n, power in enumerate(powers) if n) / dt
 
     def command(self, data, time):
         """Sets the targets of the servos for this time."""

@@ -26,6 +26,7 @@ from ._shape_files import (
 
 __all__ = [
     "AreaKeys",
+    "BasePoseKeys",
     "BladeKeys",
     "CircleKeys",
     "CostedToolKeys",
@@ -38,6 +39,7 @@ __all__ = [
     "GripKeys",
     "HandKeys",
     "JointKeys",
+    "JointLimitKeys",
     "KeepKeys",
     "LeversKeys",
     "Numbers",
@@ -56,7 +58,6 @@ __all__ = [
     "RobotKeys",
     "SceneKeys",
     "ShapeKeys",
-    "StandKeys",
     "SupportKeys",
     "TableKeys",
     "TaskFile",
@@ -164,18 +165,27 @@ class ReachKeys(TypedDict):
 HandKeys = TypedDict("HandKeys", {"radius": float, "from": float}, total=False)
 
 
-class StandKeys(TypedDict, total=False):
-    """Pose of an arm at the origin: its height in metres, and its rotation."""
+class BasePoseKeys(TypedDict, total=False):
+    """Pose of an arm's root: position and height in metres, and its rotation."""
 
+    position: Numbers
     height: float
     yaw_deg: float
 
 
+class JointLimitKeys(TypedDict, total=False):
+    """Maximum acceleration and jerk of an arm's joints, one number for all or one for each."""
+
+    acceleration: Union[float, Numbers]
+    jerk: Union[float, Numbers]
+
+
 class ToolMountKeys(TypedDict, total=False):
-    """Distance from flange to tool underside, metres, and rotation about the flange axis."""
+    """Distance from flange to tool underside, metres, and axis of the flange that points out."""
 
     length: float
     yaw_deg: float
+    axis: Literal["x", "y", "z", "-x", "-y", "-z"]
 
 
 class RobotKeys(TypedDict):
@@ -189,7 +199,9 @@ class RobotKeys(TypedDict):
     arm: NotRequired[Any]
     max_force: NotRequired[float]
     hand: NotRequired[Union[Literal["none"], HandKeys]]
-    base: NotRequired[Union[Literal["none"], float, StandKeys]]
+    base: NotRequired[Union[Literal["none"], float]]
+    base_pose: NotRequired[BasePoseKeys]
+    joint_limits: NotRequired[JointLimitKeys]
     travel: NotRequired[float]
 
 

@@ -44,5 +44,5 @@ def test_pinocchio_finds_the_tool_where_the_plan_has_it(
     plan = json.loads((tmp_path / "push.plan.json").read_text())
     faults, worst = arms.Judge(urdf, flange).faults(plan, 0.2)
     assert faults == []
-    # Joints follow cubics between points a centimetre apart; at the points both kinematics agree.
+    # Joints follow quintics between points a centimetre apart; at the points both kinematics agree.
     assert worst < 2e-4

@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use serde_json::{Number, Value as Json};
 
+use super::spec::AXES;
 use crate::asset::node::{Content, Node};
 use crate::asset::strict::Ledger;
-use crate::asset::take::{angle, number_or};
+use crate::asset::take::{angle, number_or, vector};
 use crate::geometry::{Pose, Pose3};
 use crate::scene::Robot;
 use crate::task::{ArmRefusal, ArmSource, PushRules, RobotArm, StatedArm, read_arm};
@@ -16,29 +17,20 @@ use crate::task::{ArmRefusal, ArmSource, PushRules, RobotArm, StatedArm, read_ar
 const LENGTH: f64 = 0.15;
 
 /// Keys whose values the arm itself provides.
-const OWN: [&str; 2] = ["reach", "hand"];
+const OWN: [&str; 3] = ["reach", "hand", "base"];
 
 /// Keys that are valid only with an arm.
-const OF_URDF: [&str; 2] = ["flange", "tool_mount"];
+const OF_URDF: [&str; 4] = ["flange", "tool_mount", "base_pose", "joint_limits"];
 
 /// Reports inconsistent keys of a robot; returns `true` if the robot is an arm.
 pub(in crate::asset) fn check(robot: &Node, ledger: &mut Ledger) -> bool {
     let [urdf, arm] = ["urdf", "arm"].map(|key| robot.get(key));
-    let map = |key| robot.get(key).filter(|node| matches!(node.content, Content::Map(_)));
     let Some(which) = urdf.or(arm) else {
         for (key, node) in OF_URDF.map(|key| (key, robot.get(key))) {
             if let Some(node) = node {
                 let message = format!("`{key}` is a key of an arm, but the task has no arm");
                 ledger.fault(node, message, "add `urdf`, the file of the arm");
             }
-        }
-        if let Some(base) = map("base") {
-            let advice = "add `urdf`, the file of the arm; without an arm, `base` is a number";
-            ledger.fault(
-                base,
-                "`base` states how an arm is mounted, but the task has no arm",
-                advice,
-            );
         }
         return false;
     };
@@ -48,23 +40,19 @@ pub(in crate::asset) fn check(robot: &Node, ledger: &mut Ledger) -> bool {
     let inside = |key: &&&str| urdf.is_none() && robot.get(key).is_some();
     for key in OWN.iter().filter(|key| robot.get(key).is_some()) {
         let message = format!("`{key}` is already defined by the arm");
-        ledger.fault(robot.get(key).unwrap_or(which), message, format!("remove `{key}`"));
+        let advice = match *key {
+            "base" => "remove `base`; `base_pose` states where the arm stands".to_owned(),
+            _ => format!("remove `{key}`"),
+        };
+        ledger.fault(robot.get(key).unwrap_or(which), message, advice);
     }
-    if let Some(base) = robot.get("base").filter(|_| urdf.is_some() && map("base").is_none()) {
-        let advice = "write `base: {height: 0.1}`, or remove it";
-        ledger.fault(
-            base,
-            "`base` is not a number here: with an arm, it states how the arm is mounted",
-            advice,
-        );
-    }
-    for key in ["base", "flange", "tool_mount", "home"].iter().filter(inside) {
+    for key in OF_URDF.iter().chain(&["home"]).filter(inside) {
         let message = format!("`{key}` is already defined by `arm`");
         ledger.fault(robot.get(key).unwrap_or(which), message, format!("remove `{key}`"));
     }
     if let Some(urdf) = urdf.filter(|_| robot.get("flange").is_none()) {
-        let advice =
-            "add `flange`, the link on which tools are mounted, with its z axis pointing out of it";
+        let advice = "add `flange`, the link on which tools are mounted, with its z axis pointing \
+                      out of it (or state `tool_mount: {axis: x}`)";
         ledger.fault(urdf, "an arm needs a `flange`", advice);
     }
     true
@@ -107,14 +95,26 @@ fn urdf_of<'a>(robot: &'a Node, urdf: &str, file: &str) -> ArmSource<'a> {
     };
     let turn =
         |node: Option<&Node>| node.and_then(|node| angle(node, "yaw_deg", 0.0)).unwrap_or(0.0);
-    let (base, mount) = (robot.get("base"), robot.get("tool_mount"));
-    let stand = Pose { heading: turn(base), ..Pose::default() };
+    let (base, mount) = (robot.get("base_pose"), robot.get("tool_mount"));
+    let position = base.and_then(|base| vector(base.get("position")?)).unwrap_or_default();
+    let stand = Pose { position, heading: turn(base) };
+    let axis = mount.and_then(|mount| mount.get("axis")?.text()).unwrap_or("z");
+    let rates = |key: &str| match robot.get("joint_limits").and_then(|limits| limits.get(key)) {
+        None => Vec::new(),
+        Some(limit) => match limit.number() {
+            Some(number) => vec![number],
+            None => limit.items().iter().filter_map(Node::number).collect(),
+        },
+    };
     ArmSource::Urdf {
         path: Path::new(file).with_file_name("").join(urdf),
         flange: robot.get("flange").and_then(Node::text).unwrap_or(""),
         base: Pose3::upright(stand, number(base, "height", 0.0)),
         length: number(mount, "length", LENGTH),
         yaw: turn(mount),
+        axis: AXES.iter().position(|word| *word == axis).unwrap_or(2),
+        accelerations: rates("acceleration"),
+        jerks: rates("jerk"),
     }
 }
 

@@ -5,4 +5,4 @@ mod build;
 mod spec;
 
 pub(super) use build::{arm, check};
-pub(super) use spec::{ARM, BASE, FLANGE, HOME, TOOL_MOUNT, URDF};
+pub(super) use spec::{ARM, BASE, BASE_POSE, FLANGE, HOME, JOINT_LIMITS, TOOL_MOUNT, URDF};

@@ -1,7 +1,10 @@
 //! Keys of a robot that is an arm.
 
-use crate::asset::spec::{ANGLE, COORDINATE, Key, Range, SIZE, Value};
+use crate::asset::spec::{ANGLE, COORDINATE, Key, POSITION, Range, SIZE, Value};
 use crate::scene::MAX_JOINTS;
+
+/// Words for the axes of a frame.
+pub(super) const AXES: [&str; 6] = ["x", "y", "z", "-x", "-y", "-z"];
 
 pub(in crate::asset) const URDF: Key = Key::optional(
     "urdf",
@@ -14,8 +17,9 @@ pub(in crate::asset) const URDF: Key = Key::optional(
 pub(in crate::asset) const FLANGE: Key = Key::optional(
     "flange",
     Value::Text,
-    "With `urdf`: the link on which the tool is mounted, its z axis pointing out of it, such as \
-     `panda_link8` or `tool0`; links attached to it in the file are ignored. No default.",
+    "With `urdf`: the link on which the tool is mounted, such as `panda_link8` or `tool0`; its z \
+     axis points out of it unless `tool_mount` states another `axis`. Links attached to it in the \
+     file are ignored. No default.",
 );
 
 pub(in crate::asset) const TOOL_MOUNT: Key = Key::optional(
@@ -35,7 +39,13 @@ pub(in crate::asset) const TOOL_MOUNT: Key = Key::optional(
         Key::optional(
             "yaw_deg",
             ANGLE,
-            "Rotation of the tool about the flange's z axis, degrees; default 0.",
+            "Rotation of the tool about that axis, degrees; default 0.",
+        ),
+        Key::optional(
+            "axis",
+            Value::Word(&AXES),
+            "Axis of the flange's frame that points out of it, towards the tool: `x`, `-x`, `y`, \
+             `-y`, `z` or `-z`; default `z`.",
         ),
     ]),
     "With `urdf`: how the tool is mounted on the flange; by default 0.15 m below it.",
@@ -49,27 +59,70 @@ pub(in crate::asset) const ARM: Key = Key::optional(
 
 pub(in crate::asset) const BASE: Key = Key::optional(
     "base",
-    Value::Either(&[
-        Value::Word(&["none"]),
-        SIZE,
-        Value::Map(&[
-            Key::optional(
-                "height",
-                COORDINATE,
-                "Height of the arm's root above the table, metres; default 0.",
-            ),
-            Key::optional(
-                "yaw_deg",
-                ANGLE,
-                "Rotation of the arm about the vertical, degrees; default 0.",
-            ),
-        ]),
-    ]),
+    Value::Either(&[Value::Word(&["none"]), SIZE]),
     "Half the side in metres of the square column at the origin that carries the arm, or `none`. \
      By default 0.08, or 0.06 less than a stated `reach.min` if that is less, but at least 0.04; \
-     none for lever-ups. With `urdf`, how the arm is mounted at the origin: `height` and \
-     `yaw_deg`.",
+     none for lever-ups. With `urdf`, see `base_pose`.",
 );
+
+pub(in crate::asset) const BASE_POSE: Key = Key::optional(
+    "base_pose",
+    Value::Map(&[
+        Key::optional(
+            "position",
+            POSITION,
+            "Position [x, y] of the arm's root, metres; default [0, 0].",
+        ),
+        Key::optional(
+            "height",
+            COORDINATE,
+            "Height of the arm's root above the table, metres; default 0.",
+        ),
+        Key::optional(
+            "yaw_deg",
+            ANGLE,
+            "Rotation of the arm about the vertical, degrees; default 0.",
+        ),
+    ]),
+    "With `urdf`: where the arm stands; by default at the origin, on the table.",
+);
+
+pub(in crate::asset) const JOINT_LIMITS: Key = Key::optional(
+    "joint_limits",
+    Value::Map(&[
+        Key::optional(
+            "acceleration",
+            Value::Either(&[ACCELERATION, rates(&ACCELERATION)]),
+            "Maximum acceleration of the joints, rad/s^2 (m/s^2 for prismatic joints): one number \
+             for all, or a list with one for each. By default from the URDF, or 10 (1).",
+        ),
+        Key::optional(
+            "jerk",
+            Value::Either(&[JERK, rates(&JERK)]),
+            "Maximum jerk of the joints, rad/s^3 (m/s^3): one number or a list. By default from \
+             the URDF, or 200 (20).",
+        ),
+    ]),
+    "With `urdf`: limits of the joints that URDFs rarely state; defaults as described.",
+);
+
+const ACCELERATION: Value = Value::Number(Range {
+    what: "an acceleration in rad/s^2 or m/s^2",
+    low: 0.01,
+    high: 1e4,
+    advice: "arms allow about 2 to 20 rad/s^2",
+});
+
+const JERK: Value = Value::Number(Range {
+    what: "a jerk in rad/s^3 or m/s^3",
+    low: 0.01,
+    high: 1e6,
+    advice: "arms allow about 100 to 10000 rad/s^3",
+});
+
+const fn rates(of: &'static Value) -> Value {
+    Value::List { of, items: "numbers", min: 1, max: MAX_JOINTS }
+}
 
 pub(in crate::asset) const HOME: Key = Key::optional(
     "home",

@@ -1,6 +1,6 @@
 //! Specification of a task file.
 
-use crate::asset::arm::{ARM, BASE, FLANGE, HOME, TOOL_MOUNT, URDF};
+use crate::asset::arm::{ARM, BASE, BASE_POSE, FLANGE, HOME, JOINT_LIMITS, TOOL_MOUNT, URDF};
 use crate::asset::spec::{
     ANGLE, FORCE, FRICTION, Key, MOST_BODIES, POSITION, Range, SIZE, Value, numbers,
 };
@@ -157,6 +157,8 @@ const ROBOT: Value = Value::Map(&[
          need 2 cm on both sides of the shaft.",
     ),
     BASE,
+    BASE_POSE,
+    JOINT_LIMITS,
     Key::optional(
         "travel",
         SIZE,

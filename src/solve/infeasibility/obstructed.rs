@@ -135,11 +135,11 @@ fn explained(task: &Task, names: Vec<String>, walls: Option<&Walls>) -> Cause {
     let is_kept = |name: &String| {
         task.scene.objects.iter().any(|one| one.name == *name && one.keep.is_some())
     };
-    if let Some(Walls { subject, by }) = walls {
-        return Cause::Enclosed { subject: subject.clone(), by: by.clone(), open: names };
-    }
     if names.iter().all(|name| name.starts_with(Robot::BASE)) {
         return Cause::Base;
+    }
+    if let Some(Walls { subject, by }) = walls {
+        return Cause::Enclosed { subject: subject.clone(), by: by.clone(), open: names };
     }
     if names.iter().all(|name| is_region(name) || is_kept(name)) {
         return Cause::Kept { names };

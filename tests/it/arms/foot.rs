@@ -3,7 +3,8 @@
 use pushplan::solve::{Effort, PlanStatus, Planner};
 use pushplan::task::Task;
 
-use super::{ROBOT, URDF, folder, write};
+use super::{ROBOT, URDF, at, folder, solve, write};
+use crate::program::run;
 
 /// A second arm beside the first, on a movable joint.
 const SECOND: &str = r#"<link name="other"><collision><geometry><box size="0.1 0.1 0.3"/></geometry>
@@ -30,6 +31,18 @@ fn the_root_link_and_a_second_arm_are_obstacles() {
         })
     };
     assert!(found([0.4, 0.3, 0.1], 0.1, 0.0) && found([0.1, 0.1, 0.3], 0.0, 0.4), "{own:?}");
+    // The second arm is a body of the exported scene, against objects and the arm itself.
+    assert_eq!(solve(folder.path()).status.code(), Some(0));
+    let (plan, out) = (at(folder.path(), "out/push.plan.json"), at(folder.path(), "mjcf"));
+    assert_eq!(run(&["export", &plan, "--out", &out]).status.code(), Some(0));
+    let scene = std::fs::read_to_string(folder.path().join("mjcf/push.xml")).expect("a scene");
+    for other in ["object/can", "arm/lower/1"] {
+        let pair = [
+            format!("\"arm/other/1\" geom2=\"{other}"),
+            format!("\"{other}\" geom2=\"arm/other/1"),
+        ];
+        assert!(pair.iter().any(|pair| scene.contains(&**pair)), "{other}");
+    }
 }
 
 #[test]

@@ -25,9 +25,10 @@ pub fn load(path: &Path) -> Result<Triangles, Refused> {
         "stl" => stl(bytes),
         "obj" => obj(&bytes),
         "msh" => msh(&bytes),
+        "dae" => super::dae::read(&bytes),
         _ => {
             let message = format!("meshes with the extension .{end} are not supported");
-            return Err(refused(message, "convert it to STL or OBJ (MeshLab, trimesh)"));
+            return Err(refused(message, "convert it to STL, OBJ or DAE (MeshLab, trimesh)"));
         }
     };
     match read {
