@@ -199,7 +199,7 @@ class RobotKeys(TypedDict):
     arm: NotRequired[Any]
     max_force: NotRequired[float]
     hand: NotRequired[Union[Literal["none"], HandKeys]]
-    base: NotRequired[Union[Literal["none"], float]]
+    base: NotRequired[Union[Literal["none"], float, BasePoseKeys]]
     base_pose: NotRequired[BasePoseKeys]
     joint_limits: NotRequired[JointLimitKeys]
     travel: NotRequired[float]

@@ -26,6 +26,11 @@ const OF_URDF: [&str; 4] = ["flange", "tool_mount", "base_pose", "joint_limits"]
 pub(in crate::asset) fn check(robot: &Node, ledger: &mut Ledger) -> bool {
     let [urdf, arm] = ["urdf", "arm"].map(|key| robot.get(key));
     let Some(which) = urdf.or(arm) else {
+        if let Some(base) = former_base_pose(robot) {
+            let message = "`base` states where an arm stands, but the task has no arm";
+            let advice = "add `urdf`, the file of the arm; without an arm, `base` is a number";
+            ledger.fault(base, message, advice);
+        }
         for (key, node) in OF_URDF.map(|key| (key, robot.get(key))) {
             if let Some(node) = node {
                 let message = format!("`{key}` is a key of an arm, but the task has no arm");
@@ -38,7 +43,12 @@ pub(in crate::asset) fn check(robot: &Node, ledger: &mut Ledger) -> bool {
         ledger.fault(arm, "`urdf` and `arm` both define the arm", "keep one of them");
     }
     let inside = |key: &&&str| urdf.is_none() && robot.get(key).is_some();
-    for key in OWN.iter().filter(|key| robot.get(key).is_some()) {
+    let former = urdf.is_some() && former_base_pose(robot).is_some();
+    if let Some(base) = robot.get("base_pose").filter(|_| former) {
+        ledger.fault(base, "`base` and `base_pose` are the same", "remove `base`");
+    }
+    let stated = |key: &&&str| robot.get(key).is_some() && !(former && **key == "base");
+    for key in OWN.iter().filter(stated) {
         let message = format!("`{key}` is already defined by the arm");
         let advice = match *key {
             "base" => "remove `base`; `base_pose` states where the arm stands".to_owned(),
@@ -56,6 +66,11 @@ pub(in crate::asset) fn check(robot: &Node, ledger: &mut Ledger) -> bool {
         ledger.fault(urdf, "an arm needs a `flange`", advice);
     }
     true
+}
+
+/// Returns the value of `base` that states a pose, which is now `base_pose`.
+fn former_base_pose(robot: &Node) -> Option<&Node> {
+    robot.get("base").filter(|node| matches!(node.content, Content::Map(_)))
 }
 
 /// Returns the arm of a robot whose task is in `file`; `None` if there is no arm, or if it is
@@ -95,7 +110,8 @@ fn urdf_of<'a>(robot: &'a Node, urdf: &str, file: &str) -> ArmSource<'a> {
     };
     let turn =
         |node: Option<&Node>| node.and_then(|node| angle(node, "yaw_deg", 0.0)).unwrap_or(0.0);
-    let (base, mount) = (robot.get("base_pose"), robot.get("tool_mount"));
+    let base = robot.get("base_pose").or_else(|| former_base_pose(robot));
+    let mount = robot.get("tool_mount");
     let position = base.and_then(|base| vector(base.get("position")?)).unwrap_or_default();
     let stand = Pose { position, heading: turn(base) };
     let axis = mount.and_then(|mount| mount.get("axis")?.text()).unwrap_or("z");

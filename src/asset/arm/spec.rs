@@ -57,12 +57,21 @@ pub(in crate::asset) const ARM: Key = Key::optional(
     "The arm as stored in plan files, instead of `urdf`; by default none.",
 );
 
+const HEIGHT: Key = Key::optional(
+    "height",
+    COORDINATE,
+    "Height of the arm's root above the table, metres; default 0.",
+);
+
+const YAW: Key =
+    Key::optional("yaw_deg", ANGLE, "Rotation of the arm about the vertical, degrees; default 0.");
+
 pub(in crate::asset) const BASE: Key = Key::optional(
     "base",
-    Value::Either(&[Value::Word(&["none"]), SIZE]),
+    Value::Either(&[Value::Word(&["none"]), SIZE, Value::Map(&[HEIGHT, YAW])]),
     "Half the side in metres of the square column at the origin that carries the arm, or `none`. \
      By default 0.08, or 0.06 less than a stated `reach.min` if that is less, but at least 0.04; \
-     none for lever-ups. With `urdf`, see `base_pose`.",
+     none for lever-ups. With `urdf`, the former name of `base_pose`.",
 );
 
 pub(in crate::asset) const BASE_POSE: Key = Key::optional(
@@ -73,16 +82,8 @@ pub(in crate::asset) const BASE_POSE: Key = Key::optional(
             POSITION,
             "Position [x, y] of the arm's root, metres; default [0, 0].",
         ),
-        Key::optional(
-            "height",
-            COORDINATE,
-            "Height of the arm's root above the table, metres; default 0.",
-        ),
-        Key::optional(
-            "yaw_deg",
-            ANGLE,
-            "Rotation of the arm about the vertical, degrees; default 0.",
-        ),
+        HEIGHT,
+        YAW,
     ]),
     "With `urdf`: where the arm stands; by default at the origin, on the table.",
 );
