@@ -114,7 +114,7 @@ const EXTRAS: [(&str, &str, &str); 8] = [
 
 /// Crates that only the given modules may name, so that each can be replaced without changes
 /// elsewhere.
-const DOORS: [(&str, &str); 31] = [
+const DOORS: [(&str, &str); 30] = [
     ("parry2d_f64", "geometry"),
     ("parry3d_f64", "geometry arm"),
     ("pushplan_models", "effect act/belief"),
@@ -128,8 +128,7 @@ const DOORS: [(&str, &str); 31] = [
     ("rapier3d_f64", "sim"),
     ("nalgebra", "geometry arm kernel contact act/fit act/belief plan import lab/bench"),
     ("roxmltree", "arm import"),
-    ("stl_io", "import"),
-    ("tobj", "import"),
+    ("earcut", "import"),
     ("mcap", "export"),
     ("zip", "learn/dataset"),
     ("candle_core", "learn/network learn/train lab/image lab/parts"),

@@ -21,15 +21,15 @@ enum As {
 
 use As::{Objects as O, Tool as T};
 
-/// Returns the notes of an import, or all its faults.
+/// Returns the notes of a strict import, or all its faults.
 fn import(text: &str, what: As, wanted: &Wanted) -> Result<String, String> {
-    let (model, _, mut notes) = parse(text, "f").map_err(|faults| faults.to_string())?;
-    let more = match what {
-        O => objects(&model, "f", wanted).map(|made| made.notes),
-        T => tool(&model, "f", wanted).map(|made| made.notes),
+    let (model, _) = parse(text, "f").map_err(|faults| faults.to_string())?;
+    let strict = Wanted { strict: true, ..wanted.clone() };
+    let notes = match what {
+        O => objects(&model, "f", &strict).map(|made| made.notes),
+        T => tool(&model, "f", &strict).map(|made| made.notes),
     };
-    notes.extend(more.map_err(|faults| faults.to_string())?);
-    Ok(notes.join("\n"))
+    notes.map(|notes| notes.join("\n")).map_err(|faults| faults.to_string())
 }
 
 /// Faulty file, words of the advice, and the replacements that follow it.

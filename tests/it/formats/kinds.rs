@@ -11,10 +11,9 @@ pub(super) type Taken = Result<(Task, String), String>;
 
 /// Returns the task of a text with all notes, or all faults.
 fn taken(text: &str, wanted: &Wanted) -> Taken {
-    let (model, _, mut notes) = parse(text, "f").map_err(|faults| faults.to_string())?;
+    let (model, _) = parse(text, "f").map_err(|faults| faults.to_string())?;
     let made = objects(&model, "f", wanted).map_err(|faults| faults.to_string())?;
-    notes.extend(made.notes);
-    Ok((made.value.task, notes.join("\n")))
+    Ok((made.value.task, made.notes.join("\n")))
 }
 
 pub(super) fn all() -> Wanted {

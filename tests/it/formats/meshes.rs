@@ -20,10 +20,9 @@ pub(super) fn taken_of(files: &[(&str, &[u8])], reading: &Reading, wanted: &Want
     let root = reading.root.as_ref().map(|root| folder.path().join(root));
     let reading = Reading { root, ..reading.clone() };
     let path = folder.path().join(files[0].0);
-    let (model, _, mut notes) = read(&path, &reading).map_err(|faults| faults.to_string())?;
+    let (model, _) = read(&path, &reading).map_err(|faults| faults.to_string())?;
     let made = objects(&model, "f", wanted).map_err(|faults| faults.to_string())?;
-    notes.extend(made.notes);
-    Ok((made.value.task, notes.join("\n")))
+    Ok((made.value.task, made.notes.join("\n")))
 }
 
 /// Returns a cube with this side as OBJ.

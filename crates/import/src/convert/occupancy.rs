@@ -20,9 +20,32 @@ pub(super) struct Occupancy {
 impl Occupancy {
     /// Creates the grid of a body with convex outlines.
     pub fn filled(outlines: &[Vec<Vector>]) -> Self {
-        let all = || outlines.iter().flatten();
-        let low = all().fold(Vector::repeat(f64::INFINITY), |least, point| least.inf(point));
-        let high = all().fold(Vector::repeat(f64::NEG_INFINITY), |most, point| most.sup(point));
+        Self::within(outlines, outlines.iter().flatten())
+    }
+
+    /// Returns the areas that only the second and only the first of two bodies covers, relative to
+    /// the area of the first.
+    pub fn differences(one: &[Vec<Vector>], other: &[Vec<Vector>]) -> [f64; 2] {
+        let all = || one.iter().chain(other).flatten();
+        let [one, other] = [one, other].map(|outlines| Self::within(outlines, all()));
+        let only = |a: &Self, b: &Self| {
+            let rows = a.free.iter().zip(&b.free);
+            let is_free = |row: &[u32], x: usize| row[x + 1] > row[x];
+            let cells = rows.map(|(a, b)| {
+                (0..a.len() - 1).filter(|x| !is_free(a, *x) && is_free(b, *x)).count()
+            });
+            cells.sum::<usize>() as f64
+        };
+        [only(&other, &one), only(&one, &other)].map(|count| count / one.count as f64)
+    }
+
+    /// Creates the grid of a body with convex outlines that extends over all points.
+    fn within<'a>(
+        outlines: &[Vec<Vector>],
+        all: impl Iterator<Item = &'a Vector> + Clone,
+    ) -> Self {
+        let low = all.clone().fold(Vector::repeat(f64::INFINITY), |least, point| least.inf(point));
+        let high = all.fold(Vector::repeat(f64::NEG_INFINITY), |most, point| most.sup(point));
         let cell = (high - low).max() / CELLS;
         let low = low - Vector::repeat(1.5 * cell);
         let size = [0, 1].map(|axis| ((high[axis] - low[axis]) / cell) as usize + 3);

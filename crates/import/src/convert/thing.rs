@@ -1,11 +1,12 @@
 //! Conversion of bodies fixed to each other to one object, compound if it has several solids.
 
-use crate::diagnostic::Ledger;
+use crate::diagnostic::{Effect, Ledger};
+use crate::mesh::Mesh;
 use crate::model::{Body, Model, Outline, Solid};
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::scene::{Object, Support, Whole, bearings, hanging};
 
-use super::draft::{Standing, draft};
+use super::draft::{SEEN, Standing, compared, draft};
 use super::names::{Names, bare};
 use super::objects::Draft;
 use super::pieces::{MOST, fewer};
@@ -28,8 +29,38 @@ const MANY: usize = 300;
 /// Collision solid, with the index of its body.
 type Owned<'a> = (usize, &'a Solid);
 
-fn is_foot(solid: &Solid) -> bool {
+/// Radius below which a sphere is a contact point of other solids, metres.
+const POINT: f64 = 2e-3;
+
+/// Height above the lowest point up to which a sphere is a foot, metres.
+const REACHES: f64 = 1e-4;
+
+fn is_sphere(solid: &Solid) -> bool {
     matches!(solid.outline, Outline::Sphere(_))
+}
+
+/// Returns the collision solids of bodies without spheres that are mere contact points: small ones
+/// that do not reach the lowest point, as at the upper corners of a box.
+fn without_points<'a>(all: Vec<Owned<'a>>, ledger: &mut Ledger) -> Vec<Owned<'a>> {
+    let radius = |solid: &Solid| match solid.outline {
+        Outline::Sphere(radius) => radius,
+        _ => f64::INFINITY,
+    };
+    let reach = |solid: &Solid| solid.pose.translation.z - radius(solid);
+    let spheres = || all.iter().filter(|(_, solid)| is_sphere(solid));
+    let low = spheres().map(|(_, solid)| reach(solid)).fold(f64::INFINITY, f64::min);
+    let single = all.len() - spheres().count() == 1;
+    let is_point = |solid: &Solid| {
+        radius(solid) < POINT && !(single && reach(solid) <= low + REACHES)
+    };
+    if all.len() == spheres().count() || !all.iter().any(|(_, solid)| is_point(solid)) {
+        return all;
+    }
+    let (points, kept): (Vec<Owned<'a>>, Vec<Owned<'a>>) =
+        all.into_iter().partition(|(_, solid)| is_point(solid));
+    let note = format!("{} spheres are contact points of other solids, and left out", points.len());
+    ledger.note_as(Effect::Slight, points[0].1.place, note);
+    kept
 }
 
 /// Returns the objects of bodies that are fixed to each other: one object, or separate objects for
@@ -48,8 +79,9 @@ pub(super) fn of_group<'a>(
     };
     let all: Vec<Owned<'a>> = bodies.iter().flat_map(touching).collect();
     let owner = &model.bodies[group];
+    let all = without_points(all, ledger);
     let mut solids: Vec<Owned<'a>> =
-        all.iter().copied().filter(|(_, solid)| !is_foot(solid)).collect();
+        all.iter().copied().filter(|(_, solid)| !is_sphere(solid)).collect();
     let Some((_, first)) = all.first() else {
         let message = format!("`{}` has no solid that collides", owner.name);
         let advice = "give it a box, a cylinder or a mesh with collision";
@@ -78,11 +110,11 @@ pub(super) fn of_group<'a>(
             true => Upright::of(solid, &name, ledger),
             false => Upright::any(solid, &name, ledger),
         };
-        let feet = all.iter().filter(|(owner, foot)| owner == body && is_foot(foot));
+        let feet = all.iter().filter(|(owner, foot)| owner == body && is_sphere(foot));
         let kept = solids.len() < all.len();
         let feet = feet.map(|(_, foot)| *foot).filter(|_| kept).collect();
         let Some(upright) = upright else { continue };
-        found.push((Standing { upright, solid, feet, alone: single }, 0.0, *body));
+        found.push((Standing { upright, solid, feet, alone: single, whole: single }, 0.0, *body));
     }
     if found.len() < solids.len() {
         return Vec::new();
@@ -141,7 +173,7 @@ fn apart<'a>(
         let Some(weighed) = of_body(of, wanted.density, ledger) else { continue };
         let name = names.take(&of.name);
         let friction = standing.solid.material.friction.unwrap_or(wanted.friction);
-        let standing = Standing { alone: true, ..standing };
+        let standing = Standing { alone: true, whole: true, ..standing };
         let drafted = draft(&name, &standing, weighed, friction, ledger);
         let Standing { solid, feet, .. } = standing;
         drafts.extend(drafted.map(|(object, low)| Draft {
@@ -205,12 +237,25 @@ fn compound<'a>(
         ledger.fault(place, message, "remove those that matter least");
         return None;
     }
-    if pieces.len() < before {
+    let surfaces: Vec<&Mesh> =
+        bodies.iter().filter_map(|body| model.bodies[*body].surface.as_deref()).collect();
+    if !surfaces.is_empty() {
+        let outlines: Vec<Vec<Vector>> =
+            pieces.iter().map(|(piece, _)| piece.upright.outline()).collect();
+        ledger.note(place, compared(name, &surfaces, &outlines));
+    } else if pieces.len() < before {
         let (count, more) = (pieces.len(), 100.0 * more);
         let note = format!(
             "the {before} solids of `{name}` are merged into {count}, which cover {more:.1} % more \
              of the table"
         );
+        ledger.note(place, note);
+    }
+    let rough = pieces.iter().filter_map(|(piece, _)| piece.upright.rough.as_ref());
+    let off = rough.map(|rough| rough.off).fold(0.0, f64::max);
+    if surfaces.is_empty() && off >= SEEN {
+        let off = 1e3 * off;
+        let note = format!("the solids of `{name}` have sides that deviate by up to {off:.1} mm");
         ledger.note(place, note);
     }
     let lows = pieces.iter().map(|(piece, _)| piece.upright.low);
@@ -236,6 +281,7 @@ fn compound<'a>(
         }
         heavier(&mut masses);
     }
+    let stands = pieces.iter().filter(|(piece, _)| piece.upright.low - low <= HANGS).count();
     let (mut objects, mut undersides): (Vec<Object>, Vec<f64>) = (Vec::new(), Vec::new());
     for ((mut piece, _), mass) in pieces.into_iter().zip(masses) {
         let upright = &mut piece.upright;
@@ -243,12 +289,15 @@ fn compound<'a>(
             upright.height = upright.top() - low;
             upright.low = low;
         }
+        // The contact area of the only standing solid carries the object.
+        piece.alone = stands == 1 && objects.is_empty() && piece.upright.rough.is_some();
         let called = match objects.len() {
             0 => name.to_owned(),
             number => format!("{name}/{number}"),
         };
         let (object, underside) = draft(&called, &piece, (mass, None, None), friction, ledger)?;
-        objects.push(Object { support: Support::Even, ..object });
+        let support = if piece.alone { object.support } else { Support::Even };
+        objects.push(Object { support, ..object });
         undersides.push(underside);
         if objects.len() == 1 {
             objects[0].name = name.to_owned();
@@ -357,10 +406,10 @@ fn shares<'a>(
         let space: Vec<f64> =
             own.iter().map(|k| volume(found[*k].0.solid).unwrap_or_default()).collect();
         let all: f64 = space.iter().sum();
-        if of.inertial.is_some() && own.len() > 1 {
+        if of.inertial.is_some() && of.surface.is_none() && own.len() > 1 {
             let note =
                 format!("the mass of `{}` is divided among its solids by volume", bare(&of.name));
-            ledger.note(of.place, note);
+            ledger.note_as(Effect::Slight, of.place, note);
         }
         for (k, space) in own.into_iter().zip(space) {
             let share = match of.inertial.is_some() || of.weighs.is_some() {

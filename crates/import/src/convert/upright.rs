@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::diagnostic::Ledger;
 use crate::model::{Outline, Solid};
-use pushplan::geometry::{MAX_CORNERS, Pose, Vector, centroid, cross, planar_hull};
+use pushplan::geometry::{ConvexPolygon, MAX_CORNERS, Pose, Vector, centroid, cross, planar_hull};
 
 use super::shadow::{area, shadow};
 
@@ -342,6 +342,8 @@ fn prism(pose: &Isometry3<f64>, points: &[Point3<f64>]) -> Result<Upright, Strin
             return Err(format!("its {end} lacks corners of its outline{by}"));
         }
     }
+    // Otherwise, corners that are too near are merged, with a note.
+    ConvexPolygon::new(&corners).map_err(|error| error.to_string())?;
     Ok(Upright { base: Base::Polygon(corners), pose: frame, low, height: high - low, rough: None })
 }
 
