@@ -64,10 +64,12 @@ impl Row {
     /// Returns `true` for a value with an effect on motion.
     pub fn tells(&self, value: &str) -> bool {
         let neutral = |word: &str| {
-            self.neutral.split('|').any(|neutral| match (word.parse::<f64>(), neutral.parse::<f64>()) {
-                (Ok(number), Ok(neutral)) => number == neutral,
-                (Ok(number), _) if neutral == "-" => number <= 0.0,
-                _ => word == neutral,
+            self.neutral.split('|').any(|neutral| {
+                match (word.parse::<f64>(), neutral.parse::<f64>()) {
+                    (Ok(number), Ok(neutral)) => number == neutral,
+                    (Ok(number), _) if neutral == "-" => number <= 0.0,
+                    _ => word == neutral,
+                }
             })
         };
         self.neutral.is_empty() || !value.split_whitespace().all(neutral)

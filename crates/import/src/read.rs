@@ -42,12 +42,13 @@ impl Language {
 /// Options for reading files.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
-    /// Folder that must contain all files named by the file; by default its own folder.
+    /// Folder that must contain all files named by the file; by default its own folder. Unless
+    /// nothing is assumed, meshes may also lie in the folders around it.
     pub root: Option<PathBuf>,
     /// Unit of an imported mesh file, metres; by default metres, or the unit that makes the mesh an
     /// object on a table.
     pub unit: Option<f64>,
-    /// Whether nothing is assumed, so that an implausible unit is a fault.
+    /// Whether nothing is assumed, so that an implausible unit or a mesh elsewhere is a fault.
     pub strict: bool,
 }
 
@@ -56,16 +57,14 @@ pub struct Reading {
 ///
 /// # Errors
 /// Returns all faults of the file, each with its place.
-pub fn read(
-    path: impl AsRef<Path>,
-    reading: &Reading,
-) -> Result<(Model, Language), Faults> {
+pub fn read(path: impl AsRef<Path>, reading: &Reading) -> Result<(Model, Language), Faults> {
     let path = path.as_ref();
     if let Some(language) = mesh::language(path) {
         return Ok((mesh::model(path, reading)?, language));
     }
     let (file, text) = read_text(path)?;
-    parsed(&text, &file, &Files::of(path, reading.root.as_deref()))
+    let files = Files::of(path, reading.root.as_deref());
+    parsed(&text, &file, &if reading.strict { files } else { files.around() })
 }
 
 /// Reads an MJCF or URDF text that names no other files; `file` is its name in faults.
@@ -77,11 +76,7 @@ pub fn parse(text: &str, file: &str) -> Result<(Model, Language), Faults> {
 }
 
 /// Reads a text that may name `files`.
-pub(super) fn parsed(
-    text: &str,
-    file: &str,
-    files: &Files,
-) -> Result<(Model, Language), Faults> {
+pub(super) fn parsed(text: &str, file: &str, files: &Files) -> Result<(Model, Language), Faults> {
     let spliced = Spliced::read(text, file, files)?;
     let document = document(&spliced.text, file)?;
     let mut source = Source::new(&spliced, Ledger::new(file, &spliced.names()));

@@ -6,6 +6,7 @@
 //! reference="...">`, and Drake's properties of a collision.
 
 use std::collections::HashMap;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Translation3, Vector3};
@@ -19,8 +20,8 @@ use super::rubbing::{Gazebo, drake, friction, gazebo};
 use super::turns;
 use super::xml::{Source, element, elements};
 use crate::Language;
-use crate::foreign::Files;
 use crate::foreign::urdf::{self as foreign, Geometry, Origin, end, limit};
+use crate::foreign::{Files, Refused};
 
 /// Name of the link that represents the world.
 const WORLD: &str = Body::WORLD;
@@ -225,7 +226,8 @@ fn motion<'a>(
         source.fault(mimic, message, "remove <mimic> if the joint may move by itself");
     }
     let mut limits = || {
-        let mut limit = |name: &str| source.sound(limit(joint, name)).map(Option::unwrap_or_default);
+        let mut limit =
+            |name: &str| source.sound(limit(joint, name)).map(Option::unwrap_or_default);
         Some(Some([limit("lower")?, limit("upper")?]))
     };
     Some(match joint.attribute("type").unwrap_or_default() {
@@ -287,13 +289,19 @@ fn outline<'a>(source: &mut Source<'a>, collision: Node<'a, 'a>, files: &Files) 
     Some(match source.sound(foreign::geometry(collision))? {
         Geometry::Solid(Outline::Other(tag)) => Outline::Other(format!("a {tag}")),
         Geometry::Solid(outline) => outline,
-        Geometry::Mesh { file, scale } => mesh(&file, scale, files),
+        Geometry::Mesh { file, scale } => {
+            let found = files.mesh("", &file);
+            if let Ok((path, true)) = &found {
+                source.elsewhere(collision, &file, path);
+            }
+            mesh(found.map(|(path, _)| path), scale)
+        }
     })
 }
 
 /// Returns the outline of a mesh file.
-fn mesh(file: &str, scale: [f64; 3], files: &Files) -> Outline {
-    let (points, mut faces) = match files.find("", file).and_then(|path| load(&path)) {
+fn mesh(file: Result<PathBuf, Refused>, scale: [f64; 3]) -> Outline {
+    let (points, mut faces) = match file.and_then(|path| load(&path)) {
         Ok(raw) => raw,
         Err(refused) => {
             let what = format!("{} ({})", refused.message, refused.advice);
@@ -322,7 +330,8 @@ fn inertial<'a>(
 ) -> Option<(f64, Point3<f64>, Option<f64>)> {
     let node = element(link, "inertial")?;
     let Some(mass) = element(node, "mass").and_then(|mass| mass.attribute_node("value")) else {
-        source.fault(node, "<inertial> states no mass", "add `<mass value=\"...\"/>` in kilograms");
+        let place = source.place(node);
+        source.ledger.note(place, "<inertial> states no mass and is ignored");
         return None;
     };
     let mass = source.number(mass)?;

@@ -1,9 +1,11 @@
 //! XML elements with their places, and numbers in attributes.
 
+use std::path::Path;
+
 use roxmltree::{Attribute, Node};
 
 use super::attributes::{self, Row, Treatment};
-use super::diagnostic::Ledger;
+use super::diagnostic::{Effect, Ledger};
 use super::model::Place;
 use super::spliced::Spliced;
 use crate::Language;
@@ -110,6 +112,14 @@ impl<'a> Source<'a> {
             self.ledger.fault(place, message, advice);
         };
         read.map_err(note).ok()
+    }
+
+    /// Notes that a mesh is not where the file says.
+    pub fn elsewhere(&mut self, node: Node<'a, 'a>, name: &str, path: &Path) {
+        let place = self.place(node);
+        let note =
+            format!("`{name}` is outside the folder of the file; {} is used", path.display());
+        self.ledger.note_as(Effect::Slight, place, note);
     }
 
     /// Returns all numbers of an attribute; `None` with a fault if one is not a finite number.

@@ -28,7 +28,10 @@ pub(super) fn freed(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Mode
     }
     if wanted.fixed {
         let moves = |body: usize| {
-            model.below(body).iter().any(|below| *below != body && model.bodies[*below].motion != Motion::Fixed)
+            model
+                .below(body)
+                .iter()
+                .any(|below| *below != body && model.bodies[*below].motion != Motion::Fixed)
         };
         let is_root = |body: &usize| model.bodies[*body].motion == Motion::Free && moves(*body);
         let roots: Vec<usize> = (1..model.bodies.len()).filter(is_root).collect();
@@ -167,7 +170,10 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
         }
     }
     for asked in &wanted.bodies {
-        if !asked_for.iter().any(|name| same(asked, name)) {
+        // A body may be fixed to another one that was asked for.
+        let within = found.iter().flat_map(|root| model.below(*root));
+        let mut names = within.map(|body| model.name_of(body)).chain(asked_for.iter().copied());
+        if !names.any(|name| same(asked, name)) {
             let held = (1..model.bodies.len()).find(|body| same(asked, model.name_of(*body)));
             let advice = match (held, &others[..]) {
                 (Some(_), _) => format!("it is fixed; --free {asked} makes it free"),
@@ -178,10 +184,10 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
         }
     }
     if !others.is_empty() && !found.is_empty() && !wanted.bodies.is_empty() {
-        ledger.note_of_file(Effect::Some, format!(
-            "omitted, with all bodies attached to them: {}",
-            listed(&others)
-        ));
+        ledger.note_of_file(
+            Effect::Some,
+            format!("omitted, with all bodies attached to them: {}", listed(&others)),
+        );
     }
     found
 }
@@ -250,10 +256,17 @@ pub(super) fn beyond(model: &Model, roots: &[usize], wanted: &Wanted, ledger: &m
             None => None,
         };
         // A constraint is not left out of a body that was asked for.
-        let names = |body: &usize| format!("{what} acts on `{}`, which is not supported", model.name_of(*body));
+        let names = |body: &usize| {
+            format!("{what} acts on `{}`, which is not supported", model.name_of(*body))
+        };
         match acts {
-            Some(body) => ledger.fault(*place, names(body), "remove it, or select other bodies with --body"),
-            None if bodies.is_none() && wanted.bodies.is_empty() && (wanted.strict || chosen.len() + 1 >= model.bodies.len()) => {
+            Some(body) => {
+                ledger.fault(*place, names(body), "remove it, or select other bodies with --body")
+            }
+            None if bodies.is_none()
+                && wanted.bodies.is_empty()
+                && (wanted.strict || chosen.len() + 1 >= model.bodies.len()) =>
+            {
                 let message = format!("{what} is not supported");
                 ledger.fault(*place, message, "remove it, or select bodies with --body");
             }

@@ -35,7 +35,7 @@ pub(super) fn solids<'d>(
 pub(super) fn passes(draft: &Draft<'_>, solid: &Object, pose: &Pose, top: f64) -> bool {
     let own = solid.shape.footprint();
     let covers = |(other, at, _): (&Object, Pose, _)| {
-        clearance((&own, pose), (&other.shape.footprint(), &at), 1.0) < -1e-4
+        clearance((&own, pose), (&other.shape.footprint(), &at), 1.0) <= 0.0
     };
     top <= draft.low + LEVEL && solids(draft).any(covers)
 }
@@ -46,7 +46,8 @@ pub(super) fn make_way(model: &Model, found: &mut [Draft<'_>], ledger: &mut Ledg
     for k in 0..found.len() {
         let below: Vec<bool> = solids(&found[k])
             .map(|(solid, pose, [_, top])| {
-                let over = |other: &Draft<'_>| hangs(model, other) && passes(other, solid, &pose, top);
+                let over =
+                    |other: &Draft<'_>| hangs(model, other) && passes(other, solid, &pose, top);
                 found.iter().enumerate().any(|(j, other)| j != k && over(other))
             })
             .collect();
@@ -86,7 +87,7 @@ pub(super) fn make_way(model: &Model, found: &mut [Draft<'_>], ledger: &mut Ledg
         let name = draft.object.name.clone();
         let mut kept = kept.into_iter();
         let Some((first, pose)) = kept.next() else { continue };
-        draft.object = Object { name: name.clone(), pose, ..first };
+        draft.object = Object { name: name.clone(), pose, whole: None, ..first };
         let part = |(number, (solid, at)): (usize, (Object, Pose))| {
             let name = format!("{name}/{}", number + 1);
             (Object { name, ..solid }, pose.inverse() * at)

@@ -40,10 +40,7 @@ impl Occupancy {
     }
 
     /// Creates the grid of a body with convex outlines that extends over all points.
-    fn within<'a>(
-        outlines: &[Vec<Vector>],
-        all: impl Iterator<Item = &'a Vector> + Clone,
-    ) -> Self {
+    fn within<'a>(outlines: &[Vec<Vector>], all: impl Iterator<Item = &'a Vector> + Clone) -> Self {
         let low = all.clone().fold(Vector::repeat(f64::INFINITY), |least, point| least.inf(point));
         let high = all.fold(Vector::repeat(f64::NEG_INFINITY), |most, point| most.sup(point));
         let cell = (high - low).max() / CELLS;

@@ -37,7 +37,9 @@ pub(super) fn sliced(model: &mut Model, roots: &[usize], wanted: &Wanted, ledger
     for body in bodies {
         let body = &mut model.bodies[body];
         let slices: Vec<Option<Vec<Solid>>> = body.solids.iter().map(of_solid).collect();
-        if slices.iter().all(Option::is_none) || body.motion == Motion::Fixed && body.parent.is_none() {
+        if slices.iter().all(Option::is_none)
+            || body.motion == Motion::Fixed && body.parent.is_none()
+        {
             continue;
         }
         // Slices have no weight of their own, so the body has it.
@@ -58,9 +60,9 @@ pub(super) fn sliced(model: &mut Model, roots: &[usize], wanted: &Wanted, ledger
 
 /// Returns the first solid of a body that has mass.
 fn heavy(body: &Body) -> Option<&Solid> {
-    body.solids.iter().find(|solid| {
-        !matches!(solid.material.weight, Weight::Mass(0.0) | Weight::Density(0.0))
-    })
+    body.solids
+        .iter()
+        .find(|solid| !matches!(solid.material.weight, Weight::Mass(0.0) | Weight::Density(0.0)))
 }
 
 /// Returns the slices of a solid, the lowest first; `None` if one prism is as good.
@@ -127,7 +129,11 @@ fn of_solid(solid: &Solid) -> Option<Vec<Solid>> {
         let flat = between(low, to).into_iter();
         let points = flat.flat_map(|[x, y, _]| [Point3::new(x, y, from), Point3::new(x, y, to)]);
         let mesh = Mesh { points: points.collect(), ..own };
-        slices.push(Solid { outline: Outline::Mesh(Arc::new(mesh)), pose: Isometry3::identity(), ..solid.clone() });
+        slices.push(Solid {
+            outline: Outline::Mesh(Arc::new(mesh)),
+            pose: Isometry3::identity(),
+            ..solid.clone()
+        });
         from = to;
     }
     Some(slices)

@@ -79,7 +79,8 @@ pub(super) fn statics<'a>(
                  height of the table",
                 other.object.name
             );
-            let advice = format!("select one of them: --body {name}, or --body {}", other.object.name);
+            let advice =
+                format!("select one of them: --body {name}, or --body {}", other.object.name);
             ledger.fault(draft.place, message, advice);
             level = false;
             continue;
@@ -166,6 +167,11 @@ pub(super) fn statics<'a>(
                  underside"
             );
             ledger.note(solid.place, note);
+        } else if z < floor - STAND && !wanted.strict {
+            let by = 1e3 * (floor - z);
+            let note =
+                format!("the objects are {by:.0} mm above the plane; they were lowered onto it");
+            ledger.note_as(Effect::Strong, solid.place, note);
         } else if (z - floor).abs() > STAND {
             let (side, by) = if z < floor { ("above", floor - z) } else { ("below", z - floor) };
             let by = 1e3 * by;

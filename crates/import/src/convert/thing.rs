@@ -29,11 +29,27 @@ const MANY: usize = 300;
 /// Collision solid, with the index of its body.
 type Owned<'a> = (usize, &'a Solid);
 
+/// Minimum mass of an object, kg, and range of friction values that a task can state.
+const MASS: f64 = 1e-3;
+const FRICTIONS: [f64; 2] = [0.05, 2.0];
+
 /// Radius below which a sphere is a contact point of other solids, metres.
 const POINT: f64 = 2e-3;
 
 /// Height above the lowest point up to which a sphere is a foot, metres.
 const REACHES: f64 = 1e-4;
+
+/// Returns the collision solids of bodies without those that are too flat to be pushed.
+fn without_flat<'a>(all: Vec<Owned<'a>>, wanted: &Wanted, ledger: &mut Ledger) -> Vec<Owned<'a>> {
+    let (flat, kept): (Vec<Owned<'a>>, Vec<Owned<'a>>) =
+        all.iter().copied().partition(|(_, solid)| !is_sphere(solid) && Upright::is_flat(solid));
+    if wanted.strict || flat.is_empty() || kept.is_empty() {
+        return all;
+    }
+    let note = format!("{} solids are flat or tiny, and left out", flat.len());
+    ledger.note_as(Effect::Slight, flat[0].1.place, note);
+    kept
+}
 
 fn is_sphere(solid: &Solid) -> bool {
     matches!(solid.outline, Outline::Sphere(_))
@@ -50,9 +66,8 @@ fn without_points<'a>(all: Vec<Owned<'a>>, ledger: &mut Ledger) -> Vec<Owned<'a>
     let spheres = || all.iter().filter(|(_, solid)| is_sphere(solid));
     let low = spheres().map(|(_, solid)| reach(solid)).fold(f64::INFINITY, f64::min);
     let single = all.len() - spheres().count() == 1;
-    let is_point = |solid: &Solid| {
-        radius(solid) < POINT && !(single && reach(solid) <= low + REACHES)
-    };
+    let is_point =
+        |solid: &Solid| radius(solid) < POINT && !(single && reach(solid) <= low + REACHES);
     if all.len() == spheres().count() || !all.iter().any(|(_, solid)| is_point(solid)) {
         return all;
     }
@@ -79,7 +94,7 @@ pub(super) fn of_group<'a>(
     };
     let all: Vec<Owned<'a>> = bodies.iter().flat_map(touching).collect();
     let owner = &model.bodies[group];
-    let all = without_points(all, ledger);
+    let all = without_points(without_flat(all, wanted, ledger), ledger);
     let mut solids: Vec<Owned<'a>> =
         all.iter().copied().filter(|(_, solid)| !is_sphere(solid)).collect();
     let Some((_, first)) = all.first() else {
@@ -130,6 +145,11 @@ pub(super) fn of_group<'a>(
         ledger.fault(owner.place, message, advice);
         return Vec::new();
     }
+    let weighed = (
+        stated(weighed.0, [MASS, f64::INFINITY], "kg", owner, wanted, ledger),
+        weighed.1,
+        weighed.2,
+    );
     let name = names.take(&owner_name(owner, &model.bodies[found[0].2], single));
     let place = found[0].0.solid.place;
     let Some((standing, _, body)) = (if single { found.pop() } else { None }) else {
@@ -138,6 +158,7 @@ pub(super) fn of_group<'a>(
             .collect();
     };
     let friction = standing.solid.material.friction.unwrap_or(wanted.friction);
+    let friction = stated(friction, FRICTIONS, "of friction", owner, wanted, ledger);
     let drafted = draft(&name, &standing, weighed, friction, ledger);
     let Standing { solid, feet, .. } = standing;
     let drafted = drafted.map(|(object, low)| Draft {
@@ -151,6 +172,28 @@ pub(super) fn of_group<'a>(
         low,
     });
     drafted.into_iter().collect()
+}
+
+/// Returns a value as a task can state it, with a note if it is another one; if nothing may be
+/// assumed, it stays as it is, which is a fault of the task.
+fn stated(
+    value: f64,
+    [low, high]: [f64; 2],
+    unit: &str,
+    owner: &Body,
+    wanted: &Wanted,
+    ledger: &mut Ledger,
+) -> f64 {
+    let kept = value.clamp(low, high);
+    if wanted.strict || kept == value {
+        return value;
+    }
+    let note = format!(
+        "`{}` has {value} {unit} in the file; a task states {low} or more, and {kept} is used",
+        owner.name
+    );
+    ledger.note_as(Effect::Strong, owner.place, note);
+    kept
 }
 
 /// Returns the name of an object: the body of its only solid, or the root body of the group.
@@ -263,6 +306,7 @@ fn compound<'a>(
     // Standing solids come first.
     pieces.sort_by_key(|(piece, _)| piece.upright.low - low > HANGS);
     let friction = pieces[0].0.solid.material.friction.unwrap_or(wanted.friction);
+    let friction = stated(friction, FRICTIONS, "of friction", &model.bodies[group], wanted, ledger);
     let other = pieces.iter().map(|(piece, _)| piece.solid.material.friction);
     if other.flatten().any(|other| other != friction) {
         let note =

@@ -140,6 +140,13 @@ impl Upright {
         found
     }
 
+    /// Returns `true` for a solid that is too flat or small to be pushed.
+    pub fn is_flat(solid: &Solid) -> bool {
+        let points: Vec<Point3<f64>> =
+            cloud(&solid.outline).iter().map(|point| solid.pose * point).collect();
+        !points.is_empty() && Self::over(&points, None, false).is_none()
+    }
+
     /// Returns the upright prism or cylinder over points in the world; `None` if they are flat.
     pub fn over(points: &[Point3<f64>], volume: Option<f64>, rests: bool) -> Option<Self> {
         let heights = || points.iter().map(|point| point.z);

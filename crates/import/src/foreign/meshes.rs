@@ -65,7 +65,7 @@ fn triangulated(points: &[Vector3], polygon: &[u32]) -> Vec<[u32; 3]> {
     }
     let corners: Vec<[f64; 3]> = polygon.iter().map(|k| points[*k as usize].into()).collect();
     let (mut flat, mut found) = (Vec::new(), Vec::<usize>::new());
-    if !project3d_to_2d(&corners, corners.len(), &mut flat) {
+    if corners.len() < 3 || !project3d_to_2d(&corners, corners.len(), &mut flat) {
         return Vec::new();
     }
     Earcut::new().earcut(flat.iter().copied(), &[], &mut found);

@@ -83,7 +83,8 @@ impl Mesh {
             let [a, b, c] = face.map(|corner| points[corner as usize] - self.middle);
             let held = a.dot(&b.cross(&c)) / 6.0;
             let sum = a + b + c;
-            let squares = [a, b, c, sum].map(|side| side * side.transpose()).iter().sum::<Matrix3<f64>>();
+            let squares =
+                [a, b, c, sum].map(|side| side * side.transpose()).iter().sum::<Matrix3<f64>>();
             moments += held / 20.0 * squares;
             volume += held;
         }
@@ -143,7 +144,8 @@ pub type Faces = (Vec<Point3<f64>>, Vec<[u32; 3]>);
 /// Returns for every vertex the index of the first one at its place, up to 0.1 micrometres.
 fn merged(points: &[Point3<f64>]) -> Vec<usize> {
     let mut first = HashMap::new();
-    let place = |point: &Point3<f64>| <[i64; 3]>::from(point.coords.map(|x| (x * 1e7).round() as i64));
+    let place =
+        |point: &Point3<f64>| <[i64; 3]>::from(point.coords.map(|x| (x * 1e7).round() as i64));
     points.iter().enumerate().map(|(k, point)| *first.entry(place(point)).or_insert(k)).collect()
 }
 

@@ -58,7 +58,8 @@ pub(crate) fn model(path: &Path, reading: &Reading) -> Result<Model, Faults> {
     };
     let (mut points, faces) =
         load(path).map_err(|refused| fault(refused.message, &refused.advice))?;
-    let unit = unit(&points, reading, &mut note).map_err(|(message, advice)| fault(message, &advice))?;
+    let unit =
+        unit(&points, reading, &mut note).map_err(|(message, advice)| fault(message, &advice))?;
     points.iter_mut().for_each(|point| *point *= unit);
     let side = longest(&points);
     let whole = solid((points, faces), side);
@@ -142,7 +143,8 @@ fn apart(whole: &Mesh, side: f64) -> Vec<Mesh> {
     };
     let boxes: Vec<[[f64; 2]; 3]> = pieces.iter().map(ends).collect();
     let meet = |a: usize, b: usize| {
-        (0..3).all(|k| boxes[a][k][0] < boxes[b][k][1] + gap && boxes[b][k][0] < boxes[a][k][1] + gap)
+        (0..3)
+            .all(|k| boxes[a][k][0] < boxes[b][k][1] + gap && boxes[b][k][0] < boxes[a][k][1] + gap)
     };
     // Pieces whose boxes come near form one body, such as the inside and the outside of a bottle.
     let mut sets = DisjointSets::new(pieces.len());

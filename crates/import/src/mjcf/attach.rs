@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use nalgebra::Isometry3;
 use roxmltree::Node;
 
-use crate::foreign::Files;
 use crate::Language;
+use crate::foreign::Files;
 use crate::model::{Beyond, Model, Motion, Place};
 use crate::read::parsed;
 use crate::xml::Source;
@@ -143,9 +143,12 @@ impl Models {
             }
         }
         let here = |body: &usize| bodies.get(body).copied();
-        model.joints.extend(other.joints.iter().filter_map(|(name, body)| {
-            Some((format!("{prefix}{name}"), here(body)?))
-        }));
+        model.joints.extend(
+            other
+                .joints
+                .iter()
+                .filter_map(|(name, body)| Some((format!("{prefix}{name}"), here(body)?))),
+        );
         for beyond in &other.beyond {
             let named = beyond.bodies.as_ref().map(|on| on.iter().filter_map(here).collect());
             // What acts only on bodies that are not attached has no effect.

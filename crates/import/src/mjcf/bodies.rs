@@ -131,14 +131,16 @@ fn replicate<'a>(
         source.fault(node, format!("this makes more than {MOST} copies"), "use a lower `count`");
         return;
     }
-    let turn = turns::euler(euler.map(|angle| context.compiler.angle(angle)), context.compiler.letters);
+    let turn =
+        turns::euler(euler.map(|angle| context.compiler.angle(angle)), context.compiler.letters);
     let step = Isometry3::from_parts(offset.into(), turn);
     let class = node.attribute("childclass").or(within.class);
     let (mut own, depth) = (Isometry3::identity(), within.depth + 1);
     let width = count.saturating_sub(1).to_string().len();
     let separator = node.attribute("sep").unwrap_or_default();
     for number in 0..count {
-        let first = (model.bodies.len(), model.bodies[within.body].solids.len(), model.joints.len());
+        let first =
+            (model.bodies.len(), model.bodies[within.body].solids.len(), model.joints.len());
         let pose = within.pose * own;
         inside(source, context, node, Within { pose, class, depth, copies, ..within }, model);
         let added = |name: &mut String| {

@@ -149,8 +149,11 @@ impl<'a> Meshes<'a> {
                     false => file.value().to_owned(),
                 };
                 let Compiler { meshes, assets, .. } = &context.compiler;
-                let path = self.files.find(meshes.as_ref().unwrap_or(assets), &name);
-                match path.and_then(|path| load(&path)) {
+                let found = self.files.mesh(meshes.as_ref().unwrap_or(assets), &name);
+                if let Ok((path, true)) = &found {
+                    source.elsewhere(mesh, &name, path);
+                }
+                match found.and_then(|(path, _)| load(&path)) {
                     Ok(raw) => raw,
                     Err(refused) => {
                         let what = format!("{} ({})", refused.message, refused.advice);

@@ -4,8 +4,8 @@ use std::collections::HashSet;
 
 use roxmltree::Node;
 
-use crate::foreign::Files;
 use crate::Language;
+use crate::foreign::Files;
 use crate::model::{Beyond, Body, Model};
 use crate::xml::{Source, elements};
 use pushplan::scene::GRAVITY;

@@ -14,7 +14,11 @@ fn helped(refused: Folder<'_>, advice: &str, followed: Folder<'_>) {
     let taken = |(files, root): Folder<'_>| {
         let texts = files.iter().map(|(name, text)| (*name, text.as_bytes()));
         let files: Vec<(&str, &[u8])> = texts.chain([("parts/cube.obj", &solid[..])]).collect();
-        taken_of(&files, &Reading { root: root.map(Into::into), ..Reading::default() }, &all())
+        taken_of(
+            &files,
+            &Reading { root: root.map(Into::into), strict: true, ..Reading::default() },
+            &all(),
+        )
     };
     let fault = taken(refused).expect_err(advice);
     assert!(fault.contains(advice), "{advice}\nnot in\n{fault}");

@@ -131,17 +131,20 @@ impl<'a> Library<'a> {
                     "triangles" => polygons.extend(corners.chunks_exact(3).map(<[u32]>::to_vec)),
                     "polygons" => polygons.push(corners),
                     "polylist" => {
-                        let counts = element(group, "vcount").ok_or("a <polylist> without counts")?;
+                        let counts =
+                            element(group, "vcount").ok_or("a <polylist> without counts")?;
                         let mut rest = &corners[..];
                         for count in numbers::<usize>(counts)? {
                             let split = rest.split_at_checked(count);
-                            let (polygon, others) = split.ok_or("a <polylist> that is too short")?;
+                            let (polygon, others) =
+                                split.ok_or("a <polylist> that is too short")?;
                             polygons.push(polygon.to_vec());
                             rest = others;
                         }
                     }
-                    "trifans" => polygons
-                        .extend(corners.windows(2).skip(1).map(|two| vec![corners[0], two[0], two[1]])),
+                    "trifans" => polygons.extend(
+                        corners.windows(2).skip(1).map(|two| vec![corners[0], two[0], two[1]]),
+                    ),
                     _ => polygons.extend(corners.windows(3).enumerate().map(|(k, three)| {
                         let odd = k % 2;
                         vec![three[odd], three[1 - odd], three[2]]
@@ -152,7 +155,8 @@ impl<'a> Library<'a> {
                 return Err("a corner that does not exist".to_owned());
             }
             let first = found.0.len() as u32;
-            let moved = |point: &[f64; 3]| pose.transform_point(&Point3::from(*point)).coords.into();
+            let moved =
+                |point: &[f64; 3]| pose.transform_point(&Point3::from(*point)).coords.into();
             let placed: Vec<[f64; 3]> = points.iter().map(moved).collect();
             found.0.extend(placed.into_iter().map(pushplan::geometry::Vector3::from));
             let mirrored = pose.determinant() < 0.0;
@@ -173,8 +177,8 @@ impl<'a> Library<'a> {
     /// Returns the positions that an input names, through its <vertices>.
     fn points(&self, vertex: Node<'a, 'a>) -> Option<Vec<[f64; 3]>> {
         let vertices = self.named(vertex, "source")?;
-        let position = elements(vertices)
-            .find(|input| input.attribute("semantic") == Some("POSITION"))?;
+        let position =
+            elements(vertices).find(|input| input.attribute("semantic") == Some("POSITION"))?;
         let source = self.named(position, "source")?;
         let accessor = element(element(source, "technique_common")?, "accessor")?;
         let stride = accessor.attribute("stride").map_or(Some(1), |stride| stride.parse().ok())?;

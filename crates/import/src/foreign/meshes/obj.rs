@@ -39,9 +39,6 @@ pub(super) fn obj(bytes: &[u8]) -> Result<Triangles, String> {
                     index.ok_or_else(|| wrong(word, "a vertex"))
                 };
                 let polygon: Vec<u32> = words.map(corner).collect::<Result<_, _>>()?;
-                if polygon.len() < 3 {
-                    return Err(format!("line {}: a face of {} corners", line + 1, polygon.len()));
-                }
                 polygons.push((line, polygon));
             }
             _ => {}

@@ -52,7 +52,8 @@ fn binary(mut bytes: &[u8]) -> Result<Vec<Vec<[f64; 3]>>, String> {
             }
             false => all,
         };
-        let number = |four: &[u8]| four.try_into().map_or(0.0, |four| f64::from(f32::from_le_bytes(four)));
+        let number =
+            |four: &[u8]| four.try_into().map_or(0.0, |four| f64::from(f32::from_le_bytes(four)));
         for triangle in bytes[HEADER..HEADER + all].chunks_exact(TRIANGLE) {
             let numbers: Vec<f64> = triangle[12..48].chunks_exact(4).map(number).collect();
             if !numbers.iter().all(|number| number.is_finite()) {
@@ -80,8 +81,8 @@ fn text(bytes: &[u8]) -> Result<Vec<Vec<[f64; 3]>>, String> {
                     for number in &mut corner {
                         let word = words.next().unwrap_or("nothing");
                         let read = word.parse().ok().filter(|number: &f64| number.is_finite());
-                        *number = read
-                            .ok_or(format!("line {}: `{word}` is not a coordinate", line + 1))?;
+                        *number =
+                            read.ok_or(format!("line {}: `{word}` is not a coordinate", line + 1))?;
                     }
                     loop_.push(corner);
                 }
