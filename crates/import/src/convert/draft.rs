@@ -11,7 +11,7 @@ use pushplan::geometry::{
 use pushplan::scene::{Object, Support};
 
 use super::feet::support;
-use super::occupancy::Occupancy;
+use super::occupancy::{Occupancy, seen};
 use super::shadow::{apart, area, fewer, reach};
 use super::upright::{Base, Rough, STRAIGHT, Upright};
 use super::weighed::Weighed;
@@ -272,21 +272,7 @@ pub(super) fn roughly(
 /// Returns the note on the difference between the surfaces of a body and the outlines of the solids
 /// that represent it.
 pub(super) fn compared(name: &str, surfaces: &[&Mesh], outlines: &[Vec<Vector>]) -> String {
-    let seen = |mesh: &Mesh, corner: u32| {
-        let point = mesh.points[corner as usize];
-        Vector::new(point.x, point.y)
-    };
-    let triangle = |mesh: &Mesh, face: [u32; 3]| {
-        let mut corners = face.map(|corner| seen(mesh, corner)).to_vec();
-        if area(&corners) < 0.0 {
-            corners.reverse();
-        }
-        corners
-    };
-    let triangles: Vec<Vec<Vector>> = surfaces
-        .iter()
-        .flat_map(|mesh| mesh.faces.iter().map(|face| triangle(mesh, *face)))
-        .collect();
+    let triangles: Vec<Vec<Vector>> = surfaces.iter().flat_map(|mesh| seen(mesh)).collect();
     let [more, less] = Occupancy::differences(&triangles, outlines);
     let hull = planar_hull(&triangles.concat(), 0.0);
     let solids = outlines.concat();

@@ -20,6 +20,7 @@ mod upright;
 mod wanted;
 mod weighed;
 
+pub(crate) use occupancy::is_convex_above;
 pub use scene::{ImportedScene, objects};
 pub use tool::tool;
 pub use wanted::{Imported, Wanted};

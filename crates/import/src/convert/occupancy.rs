@@ -1,11 +1,15 @@
 //! Occupancy grid of the table under a body.
 
-use pushplan::geometry::Vector;
+use crate::mesh::Mesh;
+use pushplan::geometry::{Vector, planar_hull};
 
 use super::shadow::area;
 
 /// Number of grid cells along the longer side of the covered area.
 const CELLS: f64 = 160.0;
+
+/// Share of additional area in the hull of a body below which it counts as convex.
+const CONVEX: f64 = 0.03;
 
 /// Cells that a body covers, and cells enclosed by them.
 pub(super) struct Occupancy {
@@ -105,6 +109,25 @@ impl Occupancy {
         }
         [first(&|x| x >= from, near(from)), first(&|x| x > to, near(to))]
     }
+}
+
+/// Returns the triangles of a mesh seen from above, counter-clockwise.
+pub(super) fn seen(mesh: &Mesh) -> impl Iterator<Item = Vec<Vector>> + '_ {
+    mesh.faces.iter().map(|face| {
+        let point = |corner: u32| mesh.points[corner as usize];
+        let mut corners = face.map(|corner| Vector::new(point(corner).x, point(corner).y)).to_vec();
+        if area(&corners) < 0.0 {
+            corners.reverse();
+        }
+        corners
+    })
+}
+
+/// Returns `true` for a mesh whose area seen from above, holes included, is convex.
+pub(crate) fn is_convex_above(mesh: &Mesh) -> bool {
+    let triangles: Vec<Vec<Vector>> = seen(mesh).collect();
+    let hull = planar_hull(&triangles.concat(), 0.0);
+    hull.len() > 2 && Occupancy::filled(&triangles).beyond(&hull) < CONVEX
 }
 
 /// Returns the cells that are reached from the corner of the grid without a crossing of held cells.

@@ -11,8 +11,8 @@ use nalgebra::{Isometry3, Point3};
 
 use crate::diagnostic::Ledger;
 use crate::mesh::{Counted, Mesh};
-use crate::model::{Body, Model, Motion, Outline, Solid, Weight};
-use pushplan::geometry::{Vector, convex_hull};
+use crate::model::{Body, Model, Outline, Solid, Weight};
+use pushplan::geometry::{Vector, convex_hull, cross};
 
 use super::wanted::Wanted;
 use super::weighed::{middle, of_body};
@@ -24,8 +24,14 @@ const THICK: f64 = 1.5e-3;
 /// Number of directions in which outlines are compared.
 const DIRECTIONS: usize = 24;
 
+/// Height up to which points touch the table, metres.
+const LEVEL: f64 = 3e-4;
+
 /// Maximum number of slices of a solid.
 const MOST: usize = 4;
+
+/// Maximum number of triangles of a mesh that is divided itself, instead of its hull.
+const MANY: usize = 200_000;
 
 /// Difference of outlines within a slice that is accepted, metres, and relative to the width.
 const EVEN: f64 = 1.5e-3;
@@ -36,10 +42,14 @@ pub(super) fn sliced(model: &mut Model, roots: &[usize], wanted: &Wanted, ledger
     let bodies: Vec<usize> = roots.iter().flat_map(|root| model.below(*root)).collect();
     for body in bodies {
         let body = &mut model.bodies[body];
-        let slices: Vec<Option<Vec<Solid>>> = body.solids.iter().map(of_solid).collect();
-        if slices.iter().all(Option::is_none)
-            || body.motion == Motion::Fixed && body.parent.is_none()
-        {
+        // Several solids have different heights anyway.
+        if body.solids.iter().filter(|solid| solid.touches).count() != 1 {
+            continue;
+        }
+        let whole = body.surface.as_deref().filter(|surface| surface.is_closed());
+        let slices: Vec<Option<Vec<Solid>>> =
+            body.solids.iter().map(|solid| of_solid(solid, whole)).collect();
+        if slices.iter().all(Option::is_none) {
             continue;
         }
         // Slices have no weight of their own, so the body has it.
@@ -65,12 +75,18 @@ fn heavy(body: &Body) -> Option<&Solid> {
         .find(|solid| !matches!(solid.material.weight, Weight::Mass(0.0) | Weight::Density(0.0)))
 }
 
-/// Returns the slices of a solid, the lowest first; `None` if one prism is as good.
-fn of_solid(solid: &Solid) -> Option<Vec<Solid>> {
+/// Returns the slices of a solid, the lowest first; `None` if one prism is as good. `whole` is the
+/// mesh that it stands for, if it is not its hull.
+fn of_solid(solid: &Solid, whole: Option<&Mesh>) -> Option<Vec<Solid>> {
     let Outline::Mesh(mesh) = &solid.outline else { return None };
-    let points: Vec<[f64; 3]> =
-        mesh.points.iter().map(|point| (solid.pose * point).coords.into()).collect();
-    let (corners, faces) = convex_hull(&points).filter(|_| solid.touches)?;
+    let placed = |mesh: &Mesh| -> Vec<[f64; 3]> {
+        mesh.points.iter().map(|point| (solid.pose * point).coords.into()).collect()
+    };
+    // Inside a file, a mesh collides as its hull.
+    let (corners, faces) = match whole.filter(|mesh| mesh.faces.len() <= MANY) {
+        Some(mesh) => (placed(mesh), mesh.faces.clone()),
+        None => convex_hull(&placed(mesh)).filter(|_| solid.touches)?,
+    };
     let ends = |pick: fn(f64, f64) -> f64, from: f64| corners.iter().map(|c| c[2]).fold(from, pick);
     let (low, high) = (ends(f64::min, f64::INFINITY), ends(f64::max, f64::NEG_INFINITY));
     let layers = LAYERS.min(((high - low) / THICK) as usize);
@@ -126,9 +142,19 @@ fn of_solid(solid: &Solid) -> Option<Vec<Solid>> {
         let to = level(end);
         let own: Vec<Point3<f64>> = between(from, to).into_iter().map(Point3::from).collect();
         let own = Mesh::new(own, Vec::new(), Counted::Hull)?;
+        let volume = (0..layers)
+            .map(|k| 0.5 * (level(k) + level(k + 1)))
+            .filter(|z| (from..to).contains(z))
+            .map(|z| section(&corners, &faces, z) * (high - low) / layers as f64)
+            .sum();
+        // The lowest slice stands on what touches the table.
+        let touches = |z: f64| from > low || z <= low + LEVEL;
         let flat = between(low, to).into_iter();
-        let points = flat.flat_map(|[x, y, _]| [Point3::new(x, y, from), Point3::new(x, y, to)]);
-        let mesh = Mesh { points: points.collect(), ..own };
+        let points = flat.flat_map(|[x, y, z]| {
+            let below = touches(z).then(|| Point3::new(x, y, from));
+            below.into_iter().chain([Point3::new(x, y, to)])
+        });
+        let mesh = Mesh { points: points.collect(), volume, ..own };
         slices.push(Solid {
             outline: Outline::Mesh(Arc::new(mesh)),
             pose: Isometry3::identity(),
@@ -137,6 +163,26 @@ fn of_solid(solid: &Solid) -> Option<Vec<Solid>> {
         from = to;
     }
     Some(slices)
+}
+
+/// Returns the area of a closed mesh at a height.
+fn section(corners: &[[f64; 3]], faces: &[[u32; 3]], z: f64) -> f64 {
+    let crossed = |face: &[u32; 3]| {
+        let [a, b, c] = face.map(|corner| corners[corner as usize]);
+        // Where an edge rises and where it falls through the plane, which gives a direction.
+        let edge = |[a, b]: [[f64; 3]; 2]| {
+            let share = (z - a[2]) / (b[2] - a[2]);
+            let at = Vector::new(a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]));
+            ((a[2] < z) != (b[2] < z)).then_some((a[2] < z, at))
+        };
+        let ends: Vec<(bool, Vector)> =
+            [[a, b], [b, c], [c, a]].into_iter().filter_map(edge).collect();
+        match ends[..] {
+            [(true, p), (_, q)] | [(_, q), (true, p)] => cross(q, p) / 2.0,
+            _ => 0.0,
+        }
+    };
+    faces.iter().map(crossed).sum::<f64>().abs()
 }
 
 /// Divides layers into the fewest slices whose outlines differ by at most `even` from layer to

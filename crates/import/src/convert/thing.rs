@@ -284,7 +284,7 @@ fn compound<'a>(
         bodies.iter().filter_map(|body| model.bodies[*body].surface.as_deref()).collect();
     if !surfaces.is_empty() {
         let outlines: Vec<Vec<Vector>> =
-            pieces.iter().map(|(piece, _)| piece.upright.outline()).collect();
+            pieces.iter().map(|(piece, _)| piece.upright.corners()).collect();
         ledger.note(place, compared(name, &surfaces, &outlines));
     } else if pieces.len() < before {
         let (count, more) = (pieces.len(), 100.0 * more);

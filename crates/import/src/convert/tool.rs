@@ -156,7 +156,7 @@ fn assemble(
     for (of, solid) in solids {
         let name = names.take(if solid.name.is_empty() { of } else { &solid.name });
         let Some(upright) = Upright::of(solid, &format!("`{name}`"), ledger) else { continue };
-        outlines.push(upright.outline());
+        outlines.push(upright.corners());
         if let Some(rough) = &upright.rough {
             roughly(&name, (&upright, solid, count == 1), rough, ledger);
         }

@@ -183,12 +183,14 @@ impl Upright {
         }
     }
 
-    /// Returns the corners of the covered area in the world, metres; a disc is approximated by
-    /// points on it.
+    /// Returns the corners of the area that the original solid covers in the world, metres.
     pub fn outline(&self) -> Vec<Vector> {
-        if let Some(rough) = &self.rough {
-            return rough.outline.clone();
-        }
+        self.rough.as_ref().map_or_else(|| self.corners(), |rough| rough.outline.clone())
+    }
+
+    /// Returns the corners of the base in the world, metres; a disc is approximated by points on
+    /// it.
+    pub fn corners(&self) -> Vec<Vector> {
         let corners = match &self.base {
             Base::Rectangle([x, y]) => {
                 [[-x, -y], [*x, -y], [*x, *y], [-x, *y]].map(|end| Vector::from(end) / 2.0).to_vec()

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use nalgebra::{Isometry3, Point3};
 
+use crate::convert::is_convex_above;
 use crate::diagnostic::{Effect, Note};
 use crate::model::{Body, Material, Model, Motion, Outline, Place, Solid};
 use crate::{Language, Reading};
@@ -202,7 +203,9 @@ fn body(name: String, mesh: Mesh) -> Body {
 
 /// Decomposes a mesh that is far from convex into convex parts.
 fn parts(mesh: &Mesh) -> Option<Vec<Mesh>> {
-    if !mesh.is_closed() || mesh.volume > CONVEX * mesh.hull_volume() {
+    // A tool meets the outline alone, so that a bowl need not be divided.
+    let convex = mesh.volume > CONVEX * mesh.hull_volume() || is_convex_above(mesh);
+    if !mesh.is_closed() || convex {
         return None;
     }
     let points: Vec<[f64; 3]> = mesh.points.iter().map(|point| point.coords.into()).collect();
