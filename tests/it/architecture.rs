@@ -114,7 +114,7 @@ const EXTRAS: [(&str, &str, &str); 8] = [
 
 /// Crates that only the given modules may name, so that each can be replaced without changes
 /// elsewhere.
-const DOORS: [(&str, &str); 30] = [
+const DOORS: [(&str, &str); 31] = [
     ("parry2d_f64", "geometry"),
     ("parry3d_f64", "geometry arm"),
     ("pushplan_models", "effect act/belief"),
@@ -129,6 +129,7 @@ const DOORS: [(&str, &str); 30] = [
     ("nalgebra", "geometry arm kernel contact act/fit act/belief plan import lab/bench"),
     ("roxmltree", "arm import"),
     ("earcut", "import"),
+    ("unicode_ident", "asset"),
     ("mcap", "export"),
     ("zip", "learn/dataset"),
     ("candle_core", "learn/network learn/train lab/image lab/parts"),

@@ -1,5 +1,6 @@
 //! Conversion of the bodies of a file to a tool or a scene.
 
+mod admitted;
 mod draft;
 mod feet;
 mod frictions;

@@ -2,10 +2,11 @@
 
 use crate::diagnostic::{Effect, Ledger};
 use crate::mesh::Mesh;
-use crate::model::{Body, Model, Outline, Solid};
+use crate::model::{Model, Solid};
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::scene::{Object, Support, Whole, bearings, hanging};
 
+use super::admitted::{FRICTIONS, MASS, Owned, is_sphere, stated, without_flat, without_points};
 use super::draft::{SEEN, Standing, compared, draft};
 use super::names::{Names, bare};
 use super::objects::Draft;
@@ -26,58 +27,6 @@ const LEAST: f64 = 1.1e-3;
 /// Maximum number of solids of an object.
 const MANY: usize = 300;
 
-/// Collision solid, with the index of its body.
-type Owned<'a> = (usize, &'a Solid);
-
-/// Minimum mass of an object, kg, and range of friction values that a task can state.
-const MASS: f64 = 1e-3;
-const FRICTIONS: [f64; 2] = [0.05, 2.0];
-
-/// Radius below which a sphere is a contact point of other solids, metres.
-const POINT: f64 = 2e-3;
-
-/// Height above the lowest point up to which a sphere is a foot, metres.
-const REACHES: f64 = 1e-4;
-
-/// Returns the collision solids of bodies without those that are too flat to be pushed.
-fn without_flat<'a>(all: Vec<Owned<'a>>, wanted: &Wanted, ledger: &mut Ledger) -> Vec<Owned<'a>> {
-    let (flat, kept): (Vec<Owned<'a>>, Vec<Owned<'a>>) =
-        all.iter().copied().partition(|(_, solid)| !is_sphere(solid) && Upright::is_flat(solid));
-    if wanted.strict || flat.is_empty() || kept.is_empty() {
-        return all;
-    }
-    let note = format!("{} solids are flat or tiny, and left out", flat.len());
-    ledger.note_as(Effect::Slight, flat[0].1.place, note);
-    kept
-}
-
-fn is_sphere(solid: &Solid) -> bool {
-    matches!(solid.outline, Outline::Sphere(_))
-}
-
-/// Returns the collision solids of bodies without spheres that are mere contact points: small ones
-/// that do not reach the lowest point, as at the upper corners of a box.
-fn without_points<'a>(all: Vec<Owned<'a>>, ledger: &mut Ledger) -> Vec<Owned<'a>> {
-    let radius = |solid: &Solid| match solid.outline {
-        Outline::Sphere(radius) => radius,
-        _ => f64::INFINITY,
-    };
-    let reach = |solid: &Solid| solid.pose.translation.z - radius(solid);
-    let spheres = || all.iter().filter(|(_, solid)| is_sphere(solid));
-    let low = spheres().map(|(_, solid)| reach(solid)).fold(f64::INFINITY, f64::min);
-    let single = all.len() - spheres().count() == 1;
-    let is_point =
-        |solid: &Solid| radius(solid) < POINT && !(single && reach(solid) <= low + REACHES);
-    if all.len() == spheres().count() || !all.iter().any(|(_, solid)| is_point(solid)) {
-        return all;
-    }
-    let (points, kept): (Vec<Owned<'a>>, Vec<Owned<'a>>) =
-        all.into_iter().partition(|(_, solid)| is_point(solid));
-    let note = format!("{} spheres are contact points of other solids, and left out", points.len());
-    ledger.note_as(Effect::Slight, points[0].1.place, note);
-    kept
-}
-
 /// Returns the objects of bodies that are fixed to each other: one object, or separate objects for
 /// files written by pushplan.
 pub(super) fn of_group<'a>(
@@ -94,7 +43,11 @@ pub(super) fn of_group<'a>(
     };
     let all: Vec<Owned<'a>> = bodies.iter().flat_map(touching).collect();
     let owner = &model.bodies[group];
-    let all = without_points(without_flat(all, wanted, ledger), ledger);
+    // Feet in files written by pushplan are contact points of their own solids.
+    let all = match model.ours {
+        true => all,
+        false => without_points(without_flat(all, wanted, ledger), ledger),
+    };
     let mut solids: Vec<Owned<'a>> =
         all.iter().copied().filter(|(_, solid)| !is_sphere(solid)).collect();
     let Some((_, first)) = all.first() else {
@@ -145,12 +98,9 @@ pub(super) fn of_group<'a>(
         ledger.fault(owner.place, message, advice);
         return Vec::new();
     }
-    let weighed = (
-        stated(weighed.0, [MASS, f64::INFINITY], "kg", owner, wanted, ledger),
-        weighed.1,
-        weighed.2,
-    );
-    let name = names.take(&owner_name(owner, &model.bodies[found[0].2], single));
+    let mass = stated(weighed.0, [MASS, f64::INFINITY], "kg", owner, wanted, ledger);
+    let weighed = (mass, weighed.1, weighed.2);
+    let name = names.take(if single { &model.bodies[found[0].2].name } else { &owner.name });
     let place = found[0].0.solid.place;
     let Some((standing, _, body)) = (if single { found.pop() } else { None }) else {
         return compound(model, (group, &name), bodies, found, weighed, wanted, ledger)
@@ -172,33 +122,6 @@ pub(super) fn of_group<'a>(
         low,
     });
     drafted.into_iter().collect()
-}
-
-/// Returns a value as a task can state it, with a note if it is another one; if nothing may be
-/// assumed, it stays as it is, which is a fault of the task.
-fn stated(
-    value: f64,
-    [low, high]: [f64; 2],
-    unit: &str,
-    owner: &Body,
-    wanted: &Wanted,
-    ledger: &mut Ledger,
-) -> f64 {
-    let kept = value.clamp(low, high);
-    if wanted.strict || kept == value {
-        return value;
-    }
-    let note = format!(
-        "`{}` has {value} {unit} in the file; a task states {low} or more, and {kept} is used",
-        owner.name
-    );
-    ledger.note_as(Effect::Strong, owner.place, note);
-    kept
-}
-
-/// Returns the name of an object: the body of its only solid, or the root body of the group.
-fn owner_name(group: &Body, body: &Body, single: bool) -> String {
-    if single { body.name.clone() } else { group.name.clone() }
 }
 
 /// Returns one object per solid for bodies fixed together in a file written by pushplan.

@@ -1,7 +1,7 @@
 //! Shared parts of the readers of other formats: XML, URDF, meshes, and the files that a file
 //! names.
 //!
-//! Mesh files are read with `stl_io` and `tobj`; MSH, an array of numbers, is read directly.
+//! Polygons of mesh files are cut into triangles by `earcut`.
 
 mod files;
 mod meshes;

@@ -97,7 +97,7 @@ fn inside<'a>(
             tag if UNSEEN.contains(&tag) => {}
             _ => {
                 let message = format!("<{tag}> is not supported");
-                source.fault(child, message, FLATTEN);
+                source.fault(child, message, BODIES);
             }
         }
         // Faults of a body matter only if the body is imported.
@@ -158,10 +158,8 @@ fn replicate<'a>(
     }
 }
 
-/// Advice to let MuJoCo's compiler expand an element.
-pub(super) const FLATTEN: &str = "flatten the file with MuJoCo: `python3 -c \"import mujoco; \
-    mujoco.mj_saveLastXML('flat.xml', mujoco.MjModel.from_xml_path('FILE'))\"`, or remove the \
-    element";
+/// Advice for elements that cannot be read.
+pub(super) const BODIES: &str = "remove it, or write bodies with geoms instead";
 
 fn body<'a>(
     source: &mut Source<'a>,

@@ -11,7 +11,7 @@ use crate::xml::{Source, elements};
 use pushplan::scene::GRAVITY;
 
 use super::attach::Models;
-use super::bodies::{FLATTEN, world};
+use super::bodies::{BODIES, world};
 use super::compiler::Compiler;
 use super::contacts::pairs;
 use super::defaults::Defaults;
@@ -95,7 +95,7 @@ pub(crate) fn model<'a>(
                     model.beyond.push(Beyond { place, what: format!("<{tag}>"), bodies });
                 }
             }
-            tag => source.fault(section, format!("<{tag}> is not supported"), FLATTEN),
+            tag => source.fault(section, format!("<{tag}> is not supported"), BODIES),
         }
     }
     Some(model)

@@ -94,7 +94,7 @@ fn text(bytes: &[u8]) -> Result<Vec<Vec<[f64; 3]>>, String> {
             }
         }
     }
-    match loop_.is_empty() {
+    match loop_.is_empty() && !found.is_empty() {
         true => Ok(found),
         false => Err("it ends within a face".to_owned()),
     }
