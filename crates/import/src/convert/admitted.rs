@@ -1,9 +1,11 @@
 //! Solids, masses and frictions that a task can state, of those in a file.
 
+use nalgebra::Point3;
+
 use crate::diagnostic::{Effect, Ledger};
 use crate::model::{Body, Outline, Solid};
 
-use super::upright::Upright;
+use super::upright::{Upright, cloud};
 use super::wanted::Wanted;
 
 /// Collision solid, with the index of its body.
@@ -26,7 +28,7 @@ pub(super) fn without_flat<'a>(
     ledger: &mut Ledger,
 ) -> Vec<Owned<'a>> {
     let (flat, kept): (Vec<Owned<'a>>, Vec<Owned<'a>>) =
-        all.iter().copied().partition(|(_, solid)| !is_sphere(solid) && Upright::is_flat(solid));
+        all.iter().copied().partition(|(_, solid)| !is_sphere(solid) && is_flat(solid));
     if wanted.strict || flat.is_empty() || kept.is_empty() {
         return all;
     }
@@ -37,6 +39,14 @@ pub(super) fn without_flat<'a>(
 
 pub(super) fn is_sphere(solid: &Solid) -> bool {
     matches!(solid.outline, Outline::Sphere(_))
+}
+
+/// Returns `true` if all spheres reach below the other solids, as feet do.
+pub(super) fn on_feet(all: &[Owned<'_>]) -> bool {
+    let solids = || all.iter().filter(|(_, solid)| !is_sphere(solid));
+    let low = solids().map(|(_, solid)| lowest(solid)).fold(f64::INFINITY, f64::min);
+    let spheres = all.iter().filter(|(_, solid)| is_sphere(solid));
+    spheres.map(|(_, sphere)| lowest(sphere)).all(|reach| reach <= low + REACHES)
 }
 
 /// Returns the collision solids of bodies without spheres that are mere contact points: small ones
@@ -82,4 +92,20 @@ pub(super) fn stated(
     );
     ledger.note_as(Effect::Strong, owner.place, note);
     kept
+}
+
+/// Returns points in the world whose convex hull approximates a solid, metres.
+fn placed(solid: &Solid) -> Vec<Point3<f64>> {
+    cloud(&solid.outline).iter().map(|point| solid.pose * point).collect()
+}
+
+/// Returns the height of the lowest point of a solid in the world, metres.
+fn lowest(solid: &Solid) -> f64 {
+    placed(solid).iter().map(|point| point.z).fold(f64::INFINITY, f64::min)
+}
+
+/// Returns `true` for a solid that is too flat or small to be pushed.
+fn is_flat(solid: &Solid) -> bool {
+    let points = placed(solid);
+    !points.is_empty() && Upright::over(&points, None, false).is_none()
 }

@@ -34,7 +34,7 @@ pub(super) fn shadow(points: &[Vector]) -> Option<(Base, Vector, f64)> {
     if outline.len() < 3 || size < FLAT {
         return None;
     }
-    let corners = sound(fewer(&outline));
+    let corners = sound(&outline);
     let polygon = apart(&outline, |direction| reach(&corners, direction));
     let (middle, radius) = (centroid(&outline), (size / PI).sqrt());
     let disc = apart(&outline, |direction| middle.dot(&direction) + radius);
@@ -44,12 +44,13 @@ pub(super) fn shadow(points: &[Vector]) -> Option<(Base, Vector, f64)> {
     Some((Base::Polygon(corners), Vector::zeros(), polygon))
 }
 
-/// Returns the corners, or those of the rectangle around them if they are too thin for a polygon.
-fn sound(corners: Vec<Vector>) -> Vec<Vector> {
-    if ConvexPolygon::new(&corners).is_ok() {
+/// Returns the corners of a polygon near an outline: a rectangle around it if it is thin.
+fn sound(outline: &[Vector]) -> Vec<Vector> {
+    let (size, pose) = around(outline);
+    let corners = fewer(outline);
+    if size.iter().all(|side| *side > 2.0 * NEAREST) && ConvexPolygon::new(&corners).is_ok() {
         return corners;
     }
-    let (size, pose) = around(&corners);
     let [x, y] = size.map(|side| side.max(NEAREST) / 2.0);
     [[-x, -y], [x, -y], [x, y], [-x, y]].map(|end| pose.point(Vector::from(end))).to_vec()
 }

@@ -6,7 +6,9 @@ use crate::model::{Model, Solid};
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::scene::{Object, Support, Whole, bearings, hanging};
 
-use super::admitted::{FRICTIONS, MASS, Owned, is_sphere, stated, without_flat, without_points};
+use super::admitted::{
+    FRICTIONS, MASS, Owned, is_sphere, on_feet, stated, without_flat, without_points,
+};
 use super::draft::{SEEN, Standing, compared, draft};
 use super::names::{Names, bare};
 use super::objects::Draft;
@@ -43,7 +45,7 @@ pub(super) fn of_group<'a>(
     };
     let all: Vec<Owned<'a>> = bodies.iter().flat_map(touching).collect();
     let owner = &model.bodies[group];
-    // Feet in files written by pushplan are contact points of their own solids.
+    // Files written by pushplan have feet.
     let all = match model.ours {
         true => all,
         false => without_points(without_flat(all, wanted, ledger), ledger),
@@ -67,7 +69,7 @@ pub(super) fn of_group<'a>(
     // Spheres are the support points of a single solid; otherwise they are ordinary solids.
     let one_each =
         bodies.iter().all(|body| solids.iter().filter(|(owner, _)| owner == body).count() <= 1);
-    if !(one_each && (model.ours || solids.len() == 1)) && all.len() > 1 {
+    if !(one_each && (model.ours || solids.len() == 1 && on_feet(&all))) && all.len() > 1 {
         solids = all.clone();
     }
     let single = solids.len() == 1;
@@ -232,8 +234,7 @@ fn compound<'a>(
     let friction = stated(friction, FRICTIONS, "of friction", &model.bodies[group], wanted, ledger);
     let other = pieces.iter().map(|(piece, _)| piece.solid.material.friction);
     if other.flatten().any(|other| other != friction) {
-        let note =
-            format!("solids of `{name}` have different frictions; {friction} is used for all");
+        let note = format!("solids of `{name}` have several frictions; {friction} is used for all");
         ledger.note(place, note);
     }
     let mut masses: Vec<f64> = pieces.iter().map(|(_, share)| *share).collect();

@@ -140,13 +140,6 @@ impl Upright {
         found
     }
 
-    /// Returns `true` for a solid that is too flat or small to be pushed.
-    pub fn is_flat(solid: &Solid) -> bool {
-        let points: Vec<Point3<f64>> =
-            cloud(&solid.outline).iter().map(|point| solid.pose * point).collect();
-        !points.is_empty() && Self::over(&points, None, false).is_none()
-    }
-
     /// Returns the upright prism or cylinder over points in the world; `None` if they are flat.
     pub fn over(points: &[Point3<f64>], volume: Option<f64>, rests: bool) -> Option<Self> {
         let heights = || points.iter().map(|point| point.z);
@@ -244,7 +237,7 @@ pub(super) fn volume(solid: &Solid) -> Option<f64> {
 
 /// Returns points whose convex hull approximates the outline, in its own frame; for round outlines
 /// the points lie on the surface.
-fn cloud(outline: &Outline) -> Vec<Point3<f64>> {
+pub(super) fn cloud(outline: &Outline) -> Vec<Point3<f64>> {
     let ball = |radii: [f64; 3], shift: f64| {
         (0..=AROUND / 2).flat_map(move |row| {
             (0..AROUND).map(move |k| {

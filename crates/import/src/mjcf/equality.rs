@@ -50,7 +50,8 @@ pub(super) fn equality<'a>(
         {
             continue;
         }
-        model.beyond.push(Beyond { place, what: format!("<{tag}>"), bodies });
+        let why = faults.first().map_or(String::new(), |fault| format!(" ({})", fault.message));
+        model.beyond.push(Beyond { place, what: format!("<{tag}>{why}"), bodies });
     }
 }
 
