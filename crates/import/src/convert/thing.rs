@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Effect, Ledger};
 use crate::mesh::Mesh;
-use crate::model::{Model, Solid};
+use crate::model::Model;
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::scene::{Object, Support, Whole, bearings, hanging};
 
