@@ -59,6 +59,10 @@ pub(super) fn equality<'a>(
 fn welded(model: &mut Model, bodies: [usize; 2]) -> bool {
     let [a, b] = [bodies[0].min(bodies[1]), bodies[0].max(bodies[1])];
     let body = &mut model.bodies[b];
+    // A body that is welded to itself stays as it is.
+    if a == b {
+        return true;
+    }
     if body.parent == Some(a) || body.motion == Motion::Free && body.parent == Some(0) {
         body.parent = Some(a);
         body.motion = Motion::Fixed;
