@@ -227,6 +227,10 @@ fn reject(node: &mut Node, value: &Value, ledger: &mut Ledger) {
         {
             range.advice.into()
         }
+        // YAML reads a number with a leading zero as text.
+        (Content::Text(text), _) if number.is_some() && bare(text) != text.as_str() => {
+            format!("write {}, without quotes and leading zeros", bare(text))
+        }
         _ if number.is_some() => "remove the quotes".into(),
         (Content::Text(_), Value::Number(range) | Value::Count(range)) => {
             format!("write the bare number, without a unit; {}", range.advice)
@@ -242,6 +246,15 @@ fn reject(node: &mut Node, value: &Value, ledger: &mut Ledger) {
     };
     ledger.fault(node, message, advice);
     node.content = Content::Nothing;
+}
+
+/// Returns a number without leading zeros, such as 8 for 08.
+fn bare(text: &str) -> String {
+    let (sign, digits) =
+        text.trim().strip_prefix('-').map_or(("", text.trim()), |rest| ("-", rest));
+    let kept = digits.trim_start_matches('0');
+    let zero = if kept.starts_with(|c: char| c.is_ascii_digit()) { "" } else { "0" };
+    format!("{sign}{zero}{kept}")
 }
 
 /// Returns the advice for the word `text` where one of `values` was expected.

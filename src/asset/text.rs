@@ -3,6 +3,8 @@
 use std::io::Read;
 use std::path::Path;
 
+use unicode_ident::is_xid_continue;
+
 use crate::checksum::checksum;
 use crate::plain_file;
 
@@ -60,7 +62,9 @@ pub(super) const LONGEST_NAME: usize = 64;
 
 /// Returns `true` if a name may contain `c`.
 pub fn is_in_names(c: char) -> bool {
-    c.is_alphanumeric() || c == '-' || c == '_'
+    // Scripts write vowels and accents as marks after a letter.
+    let is_mark = c > '\u{ff}' && !('\u{2000}'..'\u{20d0}').contains(&c) && is_xid_continue(c);
+    c.is_alphanumeric() || c == '-' || c == '_' || is_mark
 }
 
 /// Returns a name for the content of a file without a `name` key: the `stem` of the file, with a
@@ -101,4 +105,23 @@ pub fn read_text(path: &Path) -> Result<(String, String), Fault> {
         return Err(Fault::of_file(&name, message, "is this the right file?"));
     }
     Ok((name, text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_hold_the_marks_of_all_scripts() {
+        let names = [
+            "\u{915}\u{94d}\u{937}\u{93f}",
+            "e\u{301}tui",
+            "\u{e01}\u{e34}\u{e48}\u{e07}",
+            "Stra\u{df}e",
+        ];
+        for name in names {
+            assert_eq!(named_after(name), name);
+        }
+        assert_eq!(named_after("a\u{200b}b\u{203f}c d"), "a-b-c-d");
+    }
 }

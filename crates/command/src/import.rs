@@ -10,13 +10,13 @@ use pushplan_import::{Imported, ImportedScene, Language, Reading, Wanted, object
 
 use super::{error::CliError, exit_code, session::Session};
 
-/// Import a tool or objects from an MJCF (MuJoCo) or URDF (ROS) file, or from a mesh (STL, OBJ)
+/// Import a tool or objects from an MJCF (MuJoCo) or URDF (ROS) file, or from a mesh (STL, OBJ, DAE)
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:
   pushplan import gripper.urdf --as tool --out tools/gripper.yaml
   pushplan import scene.xml --as objects --body can --body box --out tasks/mine.yaml
-  pushplan import mug.stl --as objects --unit mm --density 2400
+  pushplan import mug.stl --as objects --density 2400
 
 Without --out, the file is printed. `pushplan import --help` explains the conversion.",
     after_long_help = "Conversion:
@@ -28,10 +28,14 @@ Without --out, the file is printed. `pushplan import --help` explains the conver
              Vertical hinges and slides along the table become joints, also to the world. Small
              spheres under a solid become its support points. An immovable body becomes an
              obstacle, its bounding box. Robot, tools and a missing goal are placeholders.
-  meshes     STL, OBJ and MSH, inside a file or given directly. The convex hull, which MuJoCo and
-             Bullet also use, becomes a prism of up to eight corners or an upright cylinder. A
-             non-convex mesh given directly is split into parts. A warning states the error of
-             the outline.
+  meshes     STL, OBJ, DAE and MSH, inside a file or given directly. The convex hull, which MuJoCo
+             and Bullet also use, becomes a prism of up to eight corners or an upright cylinder, or
+             a stack of them if it bulges above the table. A non-convex mesh given directly is
+             split into parts, and separate solids become separate objects. A warning states the
+             error of the outline.
+  assumed    If nothing else makes sense, the only body is free, the unit of a mesh makes it an
+             object on a table, missing masses follow from 1000 kg/m^3, and bodies that cannot
+             be imported are left out. Warnings state it; --strict refuses instead.
   includes   Files in or below the folder of the file, or in or below --root.
   tool       One body with everything fixed to it, undersides level, in the frame of the body.
              Its mass, its joints and its actuators are ignored.
@@ -45,11 +49,11 @@ Without --out, the file is printed. `pushplan import --help` explains the conver
              listed under `frictions`. A tool and an object always use the mean.
   visuals    Visual shapes (contype and conaffinity 0, <visual>) contribute mass but no shape.
 
-An unsupported element is an error with its location and a remedy. An approximated element, such \
-as joint damping, gives a warning."
+Every attribute is read, harmless, a warning with its effect on motion, or an error with a \
+remedy. Warnings with a strong effect come first."
 )]
 pub struct ImportArgs {
-    /// MJCF or URDF file, or mesh (STL, OBJ)
+    /// MJCF or URDF file, or mesh (STL, OBJ, DAE)
     file: PathBuf,
     /// Kind of file to create
     #[arg(long = "as", value_enum, value_name = "WHAT")]
@@ -60,11 +64,17 @@ pub struct ImportArgs {
     /// Body to treat as free although the file fixes it, repeatable
     #[arg(long, value_name = "NAME")]
     free: Vec<String>,
-    /// Unit of a mesh
-    #[arg(long, value_enum, default_value_t = Unit::M)]
-    unit: Unit,
+    /// Treat free bodies to which others are jointed as fixed, like a cabinet against a wall
+    #[arg(long)]
+    fixed: bool,
+    /// Refuse instead of assuming a unit, a density, a free body or the bodies to leave out
+    #[arg(long)]
+    strict: bool,
+    /// Unit of a mesh [default: m, or the unit that makes it an object on a table]
+    #[arg(long, value_enum)]
+    unit: Option<Unit>,
     /// Density of bodies without a stated mass, kg/m^3: wood 700, plastic 1000, aluminium 2700,
-    /// steel 7800
+    /// steel 7800 [default: 1000, and the task calls masses unknown]
     #[arg(long, value_name = "VALUE", value_parser = positive)]
     density: Option<f64>,
     /// Name of the tool or task [default: the name of the model, otherwise of the file]
@@ -118,15 +128,21 @@ pub fn run(args: &ImportArgs, session: &Session) -> Result<u8, CliError> {
     let wanted = Wanted {
         bodies: args.bodies.clone(),
         free: args.free.clone(),
+        fixed: args.fixed,
+        strict: args.strict,
         density: args.density,
         name: args.name.clone(),
         friction: args.friction,
         shift: args.shift,
     };
-    let reading = Reading { root: session.root().map(Path::to_path_buf), unit: args.unit.metres() };
-    let (model, language, mut notes) = read(&args.file, &reading)?;
+    let reading = Reading {
+        root: session.root().map(Path::to_path_buf),
+        unit: args.unit.map(Unit::metres),
+        strict: args.strict,
+    };
+    let (model, language) = read(&args.file, &reading)?;
     let from = from(&file, language);
-    let (text, more) = match args.kind {
+    let (text, notes) = match args.kind {
         What::Tool => {
             let Imported { value, notes } = tool(&model, &file, &wanted)?;
             (format!("{from}\n{}", value.to_yaml()?), notes)
@@ -139,7 +155,6 @@ pub fn run(args: &ImportArgs, session: &Session) -> Result<u8, CliError> {
             (format!("{header}\n{}", task.to_yaml()?), notes)
         }
     };
-    notes.extend(more);
     for note in &notes {
         session.warn(note);
     }

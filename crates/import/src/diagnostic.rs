@@ -4,13 +4,35 @@ use pushplan::asset::{self, Fault, Faults};
 
 use super::model::Place;
 
+/// Effect of a difference from the file on motion; notes are ordered by it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Effect {
+    /// Something moves differently, or a value was assumed.
+    Strong,
+    /// Something moves a little differently.
+    Some,
+    /// Hardly any effect.
+    Slight,
+}
+
+/// Difference from the file that does not prevent an import.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Note {
+    /// Effect on motion.
+    pub effect: Effect,
+    /// File, with line and column if they are known.
+    pub at: String,
+    /// Description of the difference.
+    pub message: String,
+}
+
 /// Collection of the faults and notes of a file.
 #[derive(Debug)]
 pub(super) struct Ledger {
     /// Names of the file and of the files it includes.
     files: Vec<String>,
     faults: Vec<Fault>,
-    notes: Vec<String>,
+    notes: Vec<Note>,
 }
 
 impl Ledger {
@@ -55,16 +77,19 @@ impl Ledger {
 
     /// Adds a note on the element at a place.
     pub fn note(&mut self, place: Place, message: impl AsRef<str>) {
+        self.note_as(Effect::Some, place, message);
+    }
+
+    /// Adds a note with this effect.
+    pub fn note_as(&mut self, effect: Effect, place: Place, message: impl AsRef<str>) {
         let Place { line, column, .. } = place;
-        let note = format!("{}:{line}:{column}: {}", self.file(place), message.as_ref());
-        if !self.notes.contains(&note) {
-            self.notes.push(note);
-        }
+        let at = format!("{}:{line}:{column}", self.file(place));
+        self.note_all(&[Note { effect, at, message: message.as_ref().to_owned() }]);
     }
 
     /// Adds a note on the whole file.
-    pub fn note_of_file(&mut self, message: impl AsRef<str>) {
-        self.notes.push(format!("{}: {}", self.files[0], message.as_ref()));
+    pub fn note_of_file(&mut self, effect: Effect, message: impl Into<String>) {
+        self.notes.push(Note { effect, at: self.files[0].clone(), message: message.into() });
     }
 
     /// Returns the number of faults.
@@ -78,12 +103,12 @@ impl Ledger {
     }
 
     /// Removes and returns all notes after the first `count`.
-    pub fn notes_since(&mut self, count: usize) -> Vec<String> {
+    pub fn notes_since(&mut self, count: usize) -> Vec<Note> {
         self.notes.split_off(count)
     }
 
     /// Adds notes found earlier.
-    pub fn note_all(&mut self, notes: &[String]) {
+    pub fn note_all(&mut self, notes: &[Note]) {
         for note in notes {
             if !self.notes.contains(note) {
                 self.notes.push(note.clone());
@@ -104,8 +129,8 @@ impl Ledger {
     /// Adds faults that do not affect the import in a single note.
     pub fn pass_over(&mut self, faults: &[Fault], of: &str) {
         let Some(first) = faults.first() else { return };
-        let place = first.place.map_or(String::new(), |at| format!("{}:{}:", at.line, at.column));
-        let note = match faults.len() {
+        let place = first.place.map_or(String::new(), |at| format!(":{}:{}", at.line, at.column));
+        let message = match faults.len() {
             1 => format!(
                 "{of} contains an element that cannot be imported and is ignored: {}",
                 first.message
@@ -116,7 +141,8 @@ impl Ledger {
                 count - 1
             ),
         };
-        self.notes.push(format!("{}:{place} {note}", first.file));
+        let at = format!("{}{place}", first.file);
+        self.notes.push(Note { effect: Effect::Some, at, message });
     }
 
     /// Adds the faults of the converted result; their places are dropped, because they refer to an
@@ -131,7 +157,7 @@ impl Ledger {
     ///
     /// # Errors
     /// Returns all faults, if any.
-    pub fn finish<T>(self, made: Option<T>) -> Result<(T, Vec<String>), Faults> {
+    pub fn finish<T>(self, made: Option<T>) -> Result<(T, Vec<Note>), Faults> {
         match made {
             Some(made) if self.faults.is_empty() => Ok((made, self.notes)),
             _ => Err(self.faults()),
@@ -157,4 +183,21 @@ impl Ledger {
         self.faults.sort_by_key(|fault| (order(fault), fault.place));
         Faults(self.faults)
     }
+}
+
+/// Returns notes as lines, those with a strong effect first, and equal ones together.
+pub(super) fn lines(mut notes: Vec<Note>) -> Vec<String> {
+    notes.sort_by_key(|note| note.effect);
+    let mut lines: Vec<(Note, usize)> = Vec::new();
+    for note in notes {
+        match lines.iter_mut().find(|(first, _)| first.message == note.message) {
+            Some((_, count)) => *count += 1,
+            None => lines.push((note, 1)),
+        }
+    }
+    let line = |(Note { at, message, .. }, count): (Note, usize)| match count {
+        1 => format!("{at}: {message}"),
+        count => format!("{at}: {message} (also at {} other places)", count - 1),
+    };
+    lines.into_iter().map(line).collect()
 }

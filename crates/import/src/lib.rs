@@ -13,6 +13,7 @@
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
+mod attributes;
 mod convert;
 mod crowd;
 mod diagnostic;
@@ -27,7 +28,9 @@ mod turns;
 mod urdf;
 mod xml;
 
+pub use attributes::{Treatment, treatment};
 pub use convert::{Imported, ImportedScene, Wanted, objects, tool};
+pub use diagnostic::{Effect, Note};
 pub use mesh::{Counted, Mesh};
-pub use model::{Body, Material, Model, Motion, Outline, Place, Solid, Weight};
+pub use model::{Beyond, Body, Material, Model, Motion, Outline, Place, Solid, Weight};
 pub use read::{Language, Reading, parse, read};

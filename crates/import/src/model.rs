@@ -6,6 +6,7 @@ use nalgebra::{Isometry3, Point3, Vector3};
 
 use pushplan::asset::Fault;
 
+use super::diagnostic::Note;
 use super::mesh::Mesh;
 
 /// Position in a file or an included file: line and column, both counted from one.
@@ -31,7 +32,13 @@ pub struct Model {
     /// Friction coefficients of pairs of solids, by their names.
     pub pairs: Vec<([String; 2], f64)>,
     /// Elements other than bodies that would change pushes, such as actuators.
-    pub beyond: Vec<(Place, String)>,
+    pub beyond: Vec<Beyond>,
+    /// Names of joints, with the indices of their bodies.
+    pub joints: Vec<(String, usize)>,
+    /// Notes on the file as a whole.
+    pub notes: Vec<Note>,
+    /// Whether the bodies are the separate pieces of one mesh file.
+    pub pieces: bool,
     /// Pairs of bodies that do not collide, by their names.
     pub excluded: Vec<(Place, [String; 2])>,
     /// Goals of bodies, if stated: body, x and y, tolerance (metres) and, optionally, heading and
@@ -41,6 +48,17 @@ pub struct Model {
     pub ours: bool,
     /// Whether the larger of two friction values applies to a pair.
     pub larger_friction: bool,
+}
+
+/// Element other than a body that would change pushes.
+#[derive(Clone, Debug)]
+pub struct Beyond {
+    /// Position in the file.
+    pub place: Place,
+    /// Description, such as `<tendon>`.
+    pub what: String,
+    /// Indices of the bodies that it acts on, if known.
+    pub bodies: Option<Vec<usize>>,
 }
 
 /// Rigid body.
@@ -64,10 +82,12 @@ pub struct Body {
     /// Volume (cubic metres) and centroid in the world (metres) of all solids, if the solids only
     /// approximate them.
     pub weighs: Option<(f64, Point3<f64>)>,
+    /// Surface in the world that the solids approximate, if they do.
+    pub surface: Option<Arc<Mesh>>,
     /// Faults of the body, reported only if it is imported.
     pub faults: Vec<Fault>,
-    /// Notes on small differences from the file, each with its place.
-    pub notes: Vec<String>,
+    /// Notes on differences from the file.
+    pub notes: Vec<Note>,
 }
 
 /// Motion of a body relative to its parent.
@@ -238,6 +258,7 @@ impl Body {
             solids: Vec::new(),
             inertial: None,
             weighs: None,
+            surface: None,
             faults: Vec::new(),
             notes: Vec::new(),
         }
@@ -247,6 +268,11 @@ impl Body {
 impl Model {
     /// Name of the tool's body in files of `pushplan export`.
     pub const TOOL: &str = "tool";
+
+    /// Returns the body of the joint with this name.
+    pub fn joint(&self, name: &str) -> Option<usize> {
+        self.joints.iter().find(|(joint, _)| joint == name).map(|(_, body)| *body)
+    }
 
     /// Returns a body's name; the name of the world is `world`.
     pub fn name_of(&self, body: usize) -> &str {

@@ -22,6 +22,8 @@ pub enum Language {
     Stl,
     /// Mesh in OBJ.
     Obj,
+    /// Mesh in DAE (COLLADA).
+    Dae,
 }
 
 impl Language {
@@ -32,57 +34,49 @@ impl Language {
             Language::Urdf => "URDF",
             Language::Stl => "STL",
             Language::Obj => "OBJ",
+            Language::Dae => "DAE",
         }
     }
 }
 
 /// Options for reading files.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
-    /// Folder that must contain all files named by the file; by default its own folder.
+    /// Folder that must contain all files named by the file; by default its own folder. Unless
+    /// nothing is assumed, meshes may also lie in the folders around it.
     pub root: Option<PathBuf>,
-    /// Unit of an imported mesh file, metres.
-    pub unit: f64,
-}
-
-impl Default for Reading {
-    fn default() -> Self {
-        Self { root: None, unit: 1.0 }
-    }
+    /// Unit of an imported mesh file, metres; by default metres, or the unit that makes the mesh an
+    /// object on a table.
+    pub unit: Option<f64>,
+    /// Whether nothing is assumed, so that an implausible unit or a mesh elsewhere is a fault.
+    pub strict: bool,
 }
 
 /// Reads an MJCF or URDF file, recognised by its root element, or a mesh, recognised by its
-/// extension. Returns the model, its language and notes on omitted content.
+/// extension. Returns the model and its language.
 ///
 /// # Errors
 /// Returns all faults of the file, each with its place.
-pub fn read(
-    path: impl AsRef<Path>,
-    reading: &Reading,
-) -> Result<(Model, Language, Vec<String>), Faults> {
+pub fn read(path: impl AsRef<Path>, reading: &Reading) -> Result<(Model, Language), Faults> {
     let path = path.as_ref();
     if let Some(language) = mesh::language(path) {
-        let (model, notes) = mesh::model(path, language, reading.unit)?;
-        return Ok((model, language, notes));
+        return Ok((mesh::model(path, reading)?, language));
     }
     let (file, text) = read_text(path)?;
-    parsed(&text, &file, &Files::of(path, reading.root.as_deref()))
+    let files = Files::of(path, reading.root.as_deref());
+    parsed(&text, &file, &if reading.strict { files } else { files.around() })
 }
 
 /// Reads an MJCF or URDF text that names no other files; `file` is its name in faults.
 ///
 /// # Errors
 /// Returns all faults of the text, each with its place.
-pub fn parse(text: &str, file: &str) -> Result<(Model, Language, Vec<String>), Faults> {
+pub fn parse(text: &str, file: &str) -> Result<(Model, Language), Faults> {
     parsed(text, file, &Files::default())
 }
 
 /// Reads a text that may name `files`.
-pub(super) fn parsed(
-    text: &str,
-    file: &str,
-    files: &Files,
-) -> Result<(Model, Language, Vec<String>), Faults> {
+pub(super) fn parsed(text: &str, file: &str, files: &Files) -> Result<(Model, Language), Faults> {
     let spliced = Spliced::read(text, file, files)?;
     let document = document(&spliced.text, file)?;
     let mut source = Source::new(&spliced, Ledger::new(file, &spliced.names()));
@@ -104,5 +98,6 @@ pub(super) fn parsed(
     let names = source.ledger.files().to_vec();
     let (mut model, notes) = source.ledger.finish(model)?;
     model.files = names;
-    Ok((model, language, notes))
+    model.notes = notes;
+    Ok((model, language))
 }

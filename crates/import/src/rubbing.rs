@@ -22,16 +22,6 @@ pub(super) struct Gazebo {
 /// a number.
 pub(super) fn friction<'a>(source: &mut Source<'a>, link: Node<'a, 'a>) -> Option<Option<f64>> {
     let contact = element(link, "contact")?;
-    for (name, what) in [
-        ("rolling_friction", "rolls without resistance"),
-        ("spinning_friction", "has the spinning friction of its support"),
-    ] {
-        let stated = element(contact, name).and_then(|node| node.attribute("value"));
-        if stated.is_some_and(|value| value.trim().parse() != Ok(0.0)) {
-            let place = source.place(contact);
-            source.ledger.note(place, format!("<{name}> is ignored: the link {what}"));
-        }
-    }
     let value = element(contact, "lateral_friction")?.attribute_node("value")?;
     Some(source.number(value))
 }

@@ -6,24 +6,28 @@
 //! reference="...">`, and Drake's properties of a collision.
 
 use std::collections::HashMap;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Translation3, Vector3};
 use roxmltree::Node;
 
+use super::attributes;
+use super::diagnostic::Effect;
 use super::mesh::{Counted, Mesh, load};
 use super::model::{Body, Material, Model, Motion, Outline, Solid};
 use super::rubbing::{Gazebo, drake, friction, gazebo};
 use super::turns;
 use super::xml::{Source, element, elements};
-use crate::foreign::Files;
+use crate::Language;
 use crate::foreign::urdf::{self as foreign, Geometry, Origin, end, limit};
+use crate::foreign::{Files, Refused};
 
 /// Name of the link that represents the world.
 const WORLD: &str = Body::WORLD;
 
 /// Elements that do not affect the result of pushes.
-const HARMLESS: [&str; 2] = ["material", "gazebo"];
+const HARMLESS: [&str; 4] = ["material", "gazebo", "transmission", "ros2_control"];
 
 /// Link, with the joint that attaches it.
 struct Link<'a> {
@@ -37,6 +41,7 @@ pub(super) fn model<'a>(
     root: Node<'a, 'a>,
     files: &Files,
 ) -> Option<Model> {
+    source.judge(Language::Urdf, "robot", root, |name| root.attribute_node(name));
     let name = root.attribute("name").unwrap_or_default().to_owned();
     let mut model = Model { name, bodies: vec![Body::world()], ..Model::default() };
     let mut links: Vec<(&str, Link<'a>)> = Vec::new();
@@ -54,9 +59,6 @@ pub(super) fn model<'a>(
         match node.tag_name().name() {
             "link" if own => {}
             "joint" if own => hang(source, node, &mut links)?,
-            "transmission" | "ros2_control" => {
-                model.beyond.push((source.place(node), format!("<{}>", node.tag_name().name())));
-            }
             tag if HARMLESS.contains(&tag) => {}
             _ if node.tag_name().namespace().is_some_and(|space| space.contains("xacro")) => {
                 source.fault(node, "this is a xacro macro", "expand it: `xacro FILE > robot.urdf`");
@@ -72,6 +74,9 @@ pub(super) fn model<'a>(
         }
     }
     let gazebo = gazebo(source, root);
+    // A file without any collision is drawn only; its visual shapes stand for them.
+    let solid = root.descendants().any(|node| node.has_tag_name("collision"));
+    let shape = if solid { "collision" } else { "visual" };
     // Parents precede their children; links that remain when nothing more can be attached form a
     // circle.
     let mut indices: HashMap<&str, usize> = HashMap::from([(WORLD, 0)]);
@@ -87,7 +92,7 @@ pub(super) fn model<'a>(
                 },
                 None => 0,
             };
-            let body = take(source, &mut model, (name, link), parent, (&gazebo, files));
+            let body = take(source, &mut model, (name, link), parent, (&gazebo, files, shape));
             if let Some(body) = body {
                 indices.insert(name, model.bodies.len());
                 model.bodies.push(body);
@@ -145,9 +150,10 @@ fn take<'a>(
     model: &mut Model,
     (name, link): (&str, &Link<'a>),
     parent: usize,
-    (gazebo, files): (&HashMap<String, Gazebo>, &Files),
+    (gazebo, files, shape): (&HashMap<String, Gazebo>, &Files, &'static str),
 ) -> Option<Body> {
     let (before, noted) = (source.ledger.count(), source.ledger.notes());
+    judged(source, link.node, shape);
     let above = model.bodies[parent].pose;
     let (pose, motion) = match link.joint {
         Some(node) => {
@@ -166,7 +172,7 @@ fn take<'a>(
         Some(stated) => stated,
         None => own.and_then(|own| own.friction),
     };
-    let solids = solids(source, link.node, &pose, friction, files);
+    let solids = solids(source, link.node, &pose, friction, (files, shape));
     if name == WORLD {
         model.bodies[0].solids.extend(solids);
         return None;
@@ -185,6 +191,23 @@ fn take<'a>(
     })
 }
 
+/// Checks the attributes of an element and of the elements in it, without shapes that are not read.
+fn judged<'a>(source: &mut Source<'a>, node: Node<'a, 'a>, shape: &str) {
+    let tag = node.tag_name().name();
+    if node.tag_name().namespace().is_some() || tag == "visual" && shape != "visual" {
+        return;
+    }
+    if attributes::rows(Language::Urdf, tag).is_empty() {
+        let place = source.place(node);
+        source.ledger.note_as(Effect::Slight, place, format!("<{tag}> is unknown and ignored"));
+        return;
+    }
+    source.judge(Language::Urdf, tag, node, |name| node.attribute_node(name));
+    for inner in elements(node) {
+        judged(source, inner, shape);
+    }
+}
+
 fn motion<'a>(
     source: &mut Source<'a>,
     joint: Node<'a, 'a>,
@@ -194,30 +217,23 @@ fn motion<'a>(
     match joint.attribute("type").unwrap_or_default() {
         "fixed" => return Some(Motion::Fixed),
         "floating" => return Some(Motion::Free),
-        _ => {}
+        _ => judged(source, joint, ""),
     }
     let axis = pose * source.sound(foreign::axis(joint))?;
-    let mut limit = |name: &str| source.sound(limit(joint, name)).map(Option::unwrap_or_default);
-    let limits = [limit("lower")?, limit("upper")?];
     if let Some(mimic) = element(joint, "mimic") {
         let leader = mimic.attribute("joint").unwrap_or_default();
         let message = format!("this joint follows `{leader}` (<mimic>), which is not supported");
         source.fault(mimic, message, "remove <mimic> if the joint may move by itself");
     }
-    let loss = |dynamics: &Node<'a, 'a>| {
-        let stated = |name: &str| dynamics.attribute(name).unwrap_or("0").parse() != Ok(0.0);
-        stated("damping") || stated("friction")
+    let mut limits = || {
+        let mut limit =
+            |name: &str| source.sound(limit(joint, name)).map(Option::unwrap_or_default);
+        Some(Some([limit("lower")?, limit("upper")?]))
     };
-    if let Some(dynamics) = element(joint, "dynamics").filter(loss) {
-        let place = source.place(dynamics);
-        source.ledger.note(place, "damping and friction of joints are ignored");
-    }
     Some(match joint.attribute("type").unwrap_or_default() {
-        "revolute" => {
-            Motion::Hinge { axis, at: pose.translation.vector.into(), limits: Some(limits) }
-        }
+        "revolute" => Motion::Hinge { axis, at: pose.translation.vector.into(), limits: limits()? },
         "continuous" => Motion::Hinge { axis, at: pose.translation.vector.into(), limits: None },
-        "prismatic" => Motion::Slide { axis, limits: Some(limits) },
+        "prismatic" => Motion::Slide { axis, limits: limits()? },
         // A planar joint moves in the plane normal to its axis.
         "planar" if axis.xy().norm() < 1e-3 => Motion::Free,
         "planar" => Motion::Other("a planar joint that is not level".to_owned()),
@@ -232,9 +248,6 @@ fn motion<'a>(
 
 /// Returns the pose stated by the `origin` of an element.
 fn origin<'a>(source: &mut Source<'a>, node: Node<'a, 'a>) -> Option<Isometry3<f64>> {
-    if let Some(origin) = element(node, "origin") {
-        source.only(origin, &[&["xyz", "rpy"]]);
-    }
     let Origin { xyz, rpy } = source.sound(foreign::origin(node))?;
     let turn = turns::euler(rpy, ['X', 'Y', 'Z']);
     Some(Isometry3::from_parts(Translation3::from(xyz), turn))
@@ -245,11 +258,11 @@ fn solids<'a>(
     link: Node<'a, 'a>,
     pose: &Isometry3<f64>,
     friction: Option<f64>,
-    files: &Files,
+    (files, shape): (&Files, &'static str),
 ) -> Vec<Solid> {
     let mut found = Vec::new();
     let shapes = |kind: &'static str| elements(link).filter(move |node| node.has_tag_name(kind));
-    for collision in shapes("collision") {
+    for collision in shapes(shape) {
         let own = origin(source, collision);
         let (Some(own), Some(outline)) = (own, outline(source, collision, files)) else { continue };
         let friction = drake(source, collision).or(friction);
@@ -259,14 +272,15 @@ fn solids<'a>(
             outline,
             pose: pose * own,
             material: Material::of_body(friction),
-            touches: true,
+            touches: shape == "collision",
         });
     }
     if found.is_empty()
         && let Some(seen) = shapes("visual").next()
     {
-        let message = "this link is only visual: it has <visual> but no <collision>";
-        source.fault(seen, message, "add a <collision> with its box, cylinder or prism");
+        let place = source.place(seen);
+        let note = "this link is only visual: it has <visual> but no <collision>, and is passed";
+        source.ledger.note(place, note);
     }
     found
 }
@@ -275,13 +289,19 @@ fn outline<'a>(source: &mut Source<'a>, collision: Node<'a, 'a>, files: &Files) 
     Some(match source.sound(foreign::geometry(collision))? {
         Geometry::Solid(Outline::Other(tag)) => Outline::Other(format!("a {tag}")),
         Geometry::Solid(outline) => outline,
-        Geometry::Mesh { file, scale } => mesh(&file, scale, files),
+        Geometry::Mesh { file, scale } => {
+            let found = files.mesh("", &file);
+            if let Ok((path, true)) = &found {
+                source.elsewhere(collision, &file, path);
+            }
+            mesh(found.map(|(path, _)| path), scale)
+        }
     })
 }
 
 /// Returns the outline of a mesh file.
-fn mesh(file: &str, scale: [f64; 3], files: &Files) -> Outline {
-    let (points, mut faces) = match files.find("", file).and_then(|path| load(&path)) {
+fn mesh(file: Result<PathBuf, Refused>, scale: [f64; 3]) -> Outline {
+    let (points, mut faces) = match file.and_then(|path| load(&path)) {
         Ok(raw) => raw,
         Err(refused) => {
             let what = format!("{} ({})", refused.message, refused.advice);
@@ -310,7 +330,8 @@ fn inertial<'a>(
 ) -> Option<(f64, Point3<f64>, Option<f64>)> {
     let node = element(link, "inertial")?;
     let Some(mass) = element(node, "mass").and_then(|mass| mass.attribute_node("value")) else {
-        source.fault(node, "<inertial> states no mass", "add `<mass value=\"...\"/>` in kilograms");
+        let place = source.place(node);
+        source.ledger.note(place, "<inertial> states no mass and is ignored");
         return None;
     };
     let mass = source.number(mass)?;

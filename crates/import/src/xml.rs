@@ -1,10 +1,14 @@
 //! XML elements with their places, and numbers in attributes.
 
+use std::path::Path;
+
 use roxmltree::{Attribute, Node};
 
-use super::diagnostic::Ledger;
+use super::attributes::{self, Row, Treatment};
+use super::diagnostic::{Effect, Ledger};
 use super::model::Place;
 use super::spliced::Spliced;
+use crate::Language;
 use crate::foreign::xml::{self, Flaw};
 pub(super) use crate::foreign::xml::{element, elements};
 
@@ -53,16 +57,51 @@ impl<'a> Source<'a> {
         self.ledger.fault(place, message, advice);
     }
 
-    /// Reports attributes of an element that are not among `known`.
-    pub fn only(&mut self, node: Node<'a, 'a>, known: &[&[&str]]) {
-        for attribute in node.attributes() {
-            let name = attribute.name();
-            // Attributes of other namespaces are ignored.
-            if attribute.namespace().is_none() && !known.iter().any(|list| list.contains(&name)) {
-                let tag = node.tag_name().name();
-                let message = format!("<{tag}> has the unknown attribute `{name}`");
-                self.fault_of(attribute, message, "correct its name, or remove it");
+    /// Checks all attributes of an element against the table of its format. Unknown attributes are
+    /// faults; attributes that are not expressed are notes or faults. `find` returns the attribute
+    /// in force, which may belong to a class.
+    pub fn judge(
+        &mut self,
+        language: Language,
+        element: &str,
+        node: Node<'a, 'a>,
+        find: impl Fn(&str) -> Option<Attribute<'a, 'a>>,
+    ) {
+        let rows = attributes::rows(language, element);
+        let tag = node.tag_name().name();
+        // Attributes of other namespaces are ignored.
+        for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
+            match attributes::row(rows, attribute.name()) {
+                Some(row) if row.name == "*" => self.report(tag, attribute, row),
+                Some(_) => {}
+                None => {
+                    let message =
+                        format!("<{tag}> has the unknown attribute `{}`", attribute.name());
+                    self.fault_of(attribute, message, "correct its name, or remove it");
+                }
             }
+        }
+        for row in rows {
+            if let Some(stated) = find(row.name).filter(|stated| row.tells(stated.value())) {
+                self.report(tag, stated, row);
+            }
+        }
+    }
+
+    /// Reports an attribute that is not expressed.
+    fn report(&mut self, tag: &str, attribute: Attribute<'a, 'a>, row: &Row) {
+        let (name, value) = (attribute.name(), attribute.value());
+        match row.treatment {
+            Treatment::Noted => {
+                let place = self.place_of(attribute);
+                let note = format!("`{name}` of this {tag} is ignored: {}", row.effect);
+                self.ledger.note_as(row.strength, place, note);
+            }
+            Treatment::Refused => {
+                let message = format!("{name}=\"{value}\" of this {tag} is not supported");
+                self.fault_of(attribute, message, row.effect);
+            }
+            Treatment::Used | Treatment::Harmless => {}
         }
     }
 
@@ -75,6 +114,14 @@ impl<'a> Source<'a> {
         read.map_err(note).ok()
     }
 
+    /// Notes that a mesh is not where the file says.
+    pub fn elsewhere(&mut self, node: Node<'a, 'a>, name: &str, path: &Path) {
+        let place = self.place(node);
+        let note =
+            format!("`{name}` is outside the folder of the file; {} is used", path.display());
+        self.ledger.note_as(Effect::Slight, place, note);
+    }
+
     /// Returns all numbers of an attribute; `None` with a fault if one is not a finite number.
     pub fn list(&mut self, attribute: Attribute<'a, 'a>) -> Option<Vec<f64>> {
         self.sound(xml::list(attribute))
@@ -83,6 +130,11 @@ impl<'a> Source<'a> {
     /// Returns exactly `N` numbers of an attribute.
     pub fn numbers<const N: usize>(&mut self, attribute: Attribute<'a, 'a>) -> Option<[f64; N]> {
         self.sound(xml::numbers(attribute))
+    }
+
+    /// Returns both limits of an attribute, which may be infinite.
+    pub fn limits(&mut self, attribute: Attribute<'a, 'a>) -> Option<[f64; 2]> {
+        self.sound(xml::limits(attribute))
     }
 
     /// Returns one number of an attribute.

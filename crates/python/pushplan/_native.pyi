@@ -1753,7 +1753,7 @@ def import_tool(
     name: str | None = None,
     friction: float = 0.5,
     root: _Path | None = None,
-    unit: float = 1.0,
+    unit: float | None = None,
 ) -> Tool:
     """Imports a tool from a MuJoCo (MJCF), ROS (URDF) or mesh (STL, OBJ) file.
 
@@ -1772,8 +1772,9 @@ def import_tool(
         Friction value of bodies that state none.
     root : str or path-like, optional
         Folder that must contain all files to which the file refers; by default its own folder.
-    unit : float, default 1.0
-        Unit of a mesh file, metres, such as 0.001 for millimetres.
+    unit : float, optional
+        Unit of a mesh file, metres, such as 0.001 for millimetres; by default metres, or the unit
+        that makes it an object on a table.
 
     Returns
     -------
@@ -1801,7 +1802,9 @@ def import_task(
     free: Sequence[str] | None = None,
     density: float | None = None,
     root: _Path | None = None,
-    unit: float = 1.0,
+    unit: float | None = None,
+    fixed: bool = False,
+    strict: bool = False,
 ) -> Task:
     """Imports a task with the objects and obstacles of a MuJoCo (MJCF), ROS (URDF) or mesh file.
 
@@ -1824,11 +1827,16 @@ def import_task(
     free : sequence of str, optional
         Bodies that become free objects although the file fixes them.
     density : float, optional
-        Density of bodies that state no mass, kg/m^3.
+        Density of bodies that state no mass, kg/m^3; by default 1000, with unknown masses.
     root : str or path-like, optional
         Folder that must contain all files to which the file refers; by default its own folder.
-    unit : float, default 1.0
-        Unit of a mesh file, metres.
+    unit : float, optional
+        Unit of a mesh file, metres; by default metres, or the unit that makes it an object on a
+        table.
+    fixed : bool, default False
+        Whether free bodies to which others are jointed are fixed, like a cabinet against a wall.
+    strict : bool, default False
+        Whether a missing unit, mass or free body is an error instead of an assumption.
 
     Returns
     -------

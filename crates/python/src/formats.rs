@@ -55,8 +55,9 @@ pub fn allow_files_in(folder: PathBuf) {
 ///     Friction value of bodies that state none.
 /// root : str or path-like, optional
 ///     Folder that must contain all files to which the file refers; by default its own folder.
-/// unit : float, default 1.0
-///     Unit of a mesh file, metres, such as 0.001 for millimetres.
+/// unit : float, optional
+///     Unit of a mesh file, metres, such as 0.001 for millimetres; by default metres, or the unit
+///     that makes it an object on a table.
 ///
 /// Returns
 /// -------
@@ -74,7 +75,7 @@ pub fn allow_files_in(folder: PathBuf) {
 /// --------
 /// >>> tool = pushplan.import_tool("hook.xml", friction=0.4)
 #[pyfunction]
-#[pyo3(signature = (path, *, body = None, name = None, friction = 0.5, root = None, unit = 1.0))]
+#[pyo3(signature = (path, *, body = None, name = None, friction = 0.5, root = None, unit = None))]
 pub fn import_tool(
     py: Python<'_>,
     path: PathBuf,
@@ -82,11 +83,11 @@ pub fn import_tool(
     name: Option<String>,
     friction: f64,
     root: Option<PathBuf>,
-    unit: f64,
+    unit: Option<f64>,
 ) -> PyResult<PyTool> {
     let bodies = body.into_iter().collect();
     let wanted = Wanted { bodies, name, friction, ..Wanted::default() };
-    let tool = imported(py, path, &reading(root, unit)?, &wanted, pushplan_import::tool)?;
+    let tool = imported(py, path, &reading(root, unit, false)?, &wanted, pushplan_import::tool)?;
     Ok(PyTool(Arc::new(tool)))
 }
 
@@ -111,11 +112,16 @@ pub fn import_tool(
 /// free : sequence of str, optional
 ///     Bodies that become free objects although the file fixes them.
 /// density : float, optional
-///     Density of bodies that state no mass, kg/m^3.
+///     Density of bodies that state no mass, kg/m^3; by default 1000, with unknown masses.
 /// root : str or path-like, optional
 ///     Folder that must contain all files to which the file refers; by default its own folder.
-/// unit : float, default 1.0
-///     Unit of a mesh file, metres.
+/// unit : float, optional
+///     Unit of a mesh file, metres; by default metres, or the unit that makes it an object on a
+///     table.
+/// fixed : bool, default False
+///     Whether free bodies to which others are jointed are fixed, like a cabinet against a wall.
+/// strict : bool, default False
+///     Whether a missing unit, mass or free body is an error instead of an assumption.
 ///
 /// Returns
 /// -------
@@ -134,7 +140,8 @@ pub fn import_tool(
 /// >>> task = pushplan.import_task("scene.xml", shift=(0.1, 0.0))
 #[pyfunction]
 #[pyo3(signature = (path, *, bodies = None, name = None, friction = 0.5, shift = (0.0, 0.0),
-                    free = None, density = None, root = None, unit = 1.0))]
+                    free = None, density = None, root = None, unit = None, fixed = false,
+                    strict = false))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn import_task(
     py: Python<'_>,
@@ -146,7 +153,9 @@ pub fn import_task(
     free: Option<Vec<String>>,
     density: Option<f64>,
     root: Option<PathBuf>,
-    unit: f64,
+    unit: Option<f64>,
+    fixed: bool,
+    strict: bool,
 ) -> PyResult<PyTask> {
     let (bodies, shift) = (bodies.unwrap_or_default(), Vector::new(shift.0, shift.1));
     if let Some(found) = density.filter(|density| !(*density > 0.0 && density.is_finite())) {
@@ -154,17 +163,18 @@ pub fn import_task(
         return Err(PyValueError::new_err(message));
     }
     let free = free.unwrap_or_default();
-    let wanted = Wanted { bodies, free, density, name, friction, shift };
-    let scene = imported(py, path, &reading(root, unit)?, &wanted, pushplan_import::objects)?;
+    let wanted = Wanted { bodies, free, fixed, strict, density, name, friction, shift };
+    let reading = reading(root, unit, strict)?;
+    let scene = imported(py, path, &reading, &wanted, pushplan_import::objects)?;
     Ok(PyTask { task: Arc::new(scene.task), source: None })
 }
 
-fn reading(root: Option<PathBuf>, unit: f64) -> PyResult<Reading> {
-    if !(unit > 0.0 && unit.is_finite()) {
+fn reading(root: Option<PathBuf>, unit: Option<f64>, strict: bool) -> PyResult<Reading> {
+    if let Some(unit) = unit.filter(|unit| !(*unit > 0.0 && unit.is_finite())) {
         let message = format!("`unit` must be a number above 0, metres, found {unit}");
         return Err(PyValueError::new_err(message));
     }
-    Ok(Reading { root, unit })
+    Ok(Reading { root, unit, strict })
 }
 
 /// Runs an import of the library on a file and converts its notes to warnings.
@@ -176,10 +186,9 @@ fn imported<T>(
     way: fn(&Model, &str, &Wanted) -> Result<Imported<T>, Faults>,
 ) -> PyResult<T> {
     let faults = |faults: Faults| errors::files(py, &faults, None);
-    let (model, _, mut notes) = pushplan_import::read(&path, reading).map_err(faults)?;
+    let (model, _) = pushplan_import::read(&path, reading).map_err(faults)?;
     let made = way(&model, &path.display().to_string(), wanted).map_err(faults)?;
-    notes.extend(made.notes);
-    for note in notes {
+    for note in made.notes {
         let note = CString::new(note.replace('\0', " ")).unwrap_or_default();
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &note, 1)?;
     }

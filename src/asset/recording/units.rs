@@ -11,9 +11,9 @@ const FARTHEST: f64 = 10.0;
 
 /// Largest number that is taken for a width in centimetres; larger numbers are taken for
 /// millimetres. Objects are 5 to 40 cm wide. The limit for positions below follows from distances
-/// of 0.3 to 4 m.
+/// of 0.2 to 2 m. Both must be below their limit, because small objects are 20 to 40 mm wide.
 const WIDTH_IN_CENTIMETRES: f64 = 40.0;
-const REACH_IN_CENTIMETRES: f64 = 400.0;
+const REACH_IN_CENTIMETRES: f64 = 200.0;
 
 /// Reports lengths that look like centimetres or millimetres. Returns `true` if it found such
 /// lengths, because every other rule about lengths would only repeat the fault.
@@ -23,11 +23,7 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) -> bool {
         objects.map(Node::items).unwrap_or_default().iter().filter_map(width).collect();
     widths.sort_by(|a, b| a.0.total_cmp(&b.0));
     // The median is used, so that a single mistake is reported as a size out of range.
-    if let Some((width, node)) = widths.get(widths.len() / 2).filter(|(width, _)| *width > WIDEST) {
-        let found = format!("an object {width} m wide");
-        note(node, &found, *width <= WIDTH_IN_CENTIMETRES, ledger);
-        return true;
-    }
+    let width = widths.get(widths.len() / 2);
     let frames = root.get("frames").map(Node::items).unwrap_or_default();
     let poses = frames.iter().flat_map(|frame| {
         let objects = frame.get("objects").map(Node::items).unwrap_or_default();
@@ -38,9 +34,15 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) -> bool {
         .filter_map(|node| Some((node.number()?.abs(), node)))
         .filter(|(reach, _)| reach.is_finite())
         .max_by(|a, b| a.0.total_cmp(&b.0));
+    let is_near = farthest.is_none_or(|(reach, _)| reach <= REACH_IN_CENTIMETRES);
+    let centimetres = is_near && width.is_none_or(|(width, _)| *width <= WIDTH_IN_CENTIMETRES);
+    if let Some((width, node)) = width.filter(|(width, _)| *width > WIDEST) {
+        note(node, &format!("an object {width} m wide"), centimetres, ledger);
+        return true;
+    }
     if let Some((reach, node)) = farthest.filter(|(reach, _)| *reach > FARTHEST) {
         let found = format!("a position {reach} m from the origin");
-        note(node, &found, reach <= REACH_IN_CENTIMETRES, ledger);
+        note(node, &found, centimetres, ledger);
         return true;
     }
     false

@@ -92,6 +92,19 @@ fn missing_and_doubled_keys() {
 }
 
 #[test]
+fn numbers_with_leading_zeros_are_written_without_them() {
+    for (written, advice) in [
+        ("08", "write 8,"),
+        ("-09.5", "write -9.5,"),
+        ("00.08", "write 0.08,"),
+        ("\"8\"", "remove the quotes"),
+    ] {
+        let found = task(&[("mass: 0.5", &format!("mass: {written}"))]);
+        assert!(found.contains(advice), "{written}: {found}");
+    }
+}
+
+#[test]
 fn wrong_kinds_of_values() {
     assert_snapshot!(task(&[("radius: 0.05", "radius: 5cm"), ("mass: 0.5", "mass: \"0.5\""), ("[0.7, -0.1]", "[0.7]"), ("max_count: 2", "max_count: 1.5"), ("tools: [stick, l-hook]", "tools: every"), ("name: box", "name: 7"), ("directions: principal", "directions: {}")]), @r#"
     t.yaml:4:46: error: expected a size in metres from 0.001 to 10, found the text "5cm"

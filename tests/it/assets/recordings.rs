@@ -253,6 +253,11 @@ fn every_error_has_its_location() {
             "[25, 0], [50, 10, 10]",
             "r.yaml:13:45: error: a position 50 m from the origin: is this in centimetres?",
         ),
+        (
+            "[0.25, 0], [0.5, 0.1, 10]",
+            "[250, 0], [350, 100, 10]",
+            "r.yaml:13:45: error: a position 350 m from the origin: is this in millimetres?",
+        ),
         ("pusher: {cylinder", "pusher: {cilinder", "r.yaml:7:10: error: unknown key `cilinder`"),
         (
             "pusher: {cylinder: {radius: 0.05, height: 0.1}}",
@@ -269,6 +274,14 @@ fn every_error_has_its_location() {
         }
     }
     assert!(missed.is_empty(), "\n{missed}");
+    // A width of 30 may be both; the positions decide.
+    let small = SOUND.replacen("radius: 0.05, height: 0.1}}}\n", "radius: 15, height: 10}}}\n", 1);
+    for (at, unit) in
+        [("[25, 0], [50, 10, 10]", "centimetres"), ("[250, 0], [350, 100, 10]", "millimetres")]
+    {
+        let found = parse(&small.replace("[0.25, 0], [0.5, 0.1, 10]", at)).expect_err(unit);
+        assert!(found.contains(&format!("an object 30 m wide: is this in {unit}?")), "{found}");
+    }
     // A declared jump of the pusher is not a fault.
     let lifted = SOUND.replace("pusher: [0.15, 0]", "lifted: true, pusher: [0.55, -0.2]");
     assert!(parse(&lifted.replace("[0.25, 0]", "[0.20, 0]")).is_ok());

@@ -6,11 +6,7 @@ mod files;
 mod links;
 mod numbers;
 
-use std::process::Command;
-
 use pushplan_import::{Wanted, objects, parse, tool};
-
-use crate::mujoco_python::python;
 
 /// Target of an import.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,15 +17,15 @@ enum As {
 
 use As::{Objects as O, Tool as T};
 
-/// Returns the notes of an import, or all its faults.
+/// Returns the notes of a strict import, or all its faults.
 fn import(text: &str, what: As, wanted: &Wanted) -> Result<String, String> {
-    let (model, _, mut notes) = parse(text, "f").map_err(|faults| faults.to_string())?;
-    let more = match what {
-        O => objects(&model, "f", wanted).map(|made| made.notes),
-        T => tool(&model, "f", wanted).map(|made| made.notes),
+    let (model, _) = parse(text, "f").map_err(|faults| faults.to_string())?;
+    let strict = Wanted { strict: true, ..wanted.clone() };
+    let notes = match what {
+        O => objects(&model, "f", &strict).map(|made| made.notes),
+        T => tool(&model, "f", &strict).map(|made| made.notes),
     };
-    notes.extend(more.map_err(|faults| faults.to_string())?);
-    Ok(notes.join("\n"))
+    notes.map(|notes| notes.join("\n")).map_err(|faults| faults.to_string())
 }
 
 /// Faulty file, words of the advice, and the replacements that follow it.
@@ -131,7 +127,7 @@ fn options_follow_the_advice() {
     let inside = high.replace("1.05", ".05").replace("</worldbody>", post);
     let fixed = mjcf(&format!("<body name='a'>{BOX}</body><body name='b'>{BOX}</body>"));
     let jaw = mjcf(&format!("<body name='a'>{BOX}<body name='jaw'><joint/>{BOX}</body></body>"));
-    let weld = "<equality><weld body1='b'/></equality></mujoco>";
+    let tendon = "<tendon><spatial/></tendon></mujoco>";
     for (text, what, advice, wanted) in [
         (held("<joint axis='0 1 0'/>"), O, "objects must be free (--free NAME", freed("b")),
         (held(""), O, "--free b makes it free", freed("b")),
@@ -139,7 +135,7 @@ fn options_follow_the_advice() {
         (inside, O, "move one of them, or select other bodies with --body", named(&["c"])),
         (free(BOX).replace("</worldbody>", leaning), O, "with --body it is ignored", named(&["b"])),
         (
-            free(BOX).replace("</mujoco>", weld),
+            free(BOX).replace("</mujoco>", tendon),
             O,
             "remove it, or select bodies with --body",
             named(&["b"]),
@@ -209,24 +205,4 @@ fn tools_become_one_piece_after_following_the_advice() {
         ),
     ];
     edited(T, rows);
-}
-
-#[test]
-fn mujoco_writes_out_what_is_not_read() {
-    let Some(python) = python() else { return };
-    let text = mjcf(
-        "<replicate count='2' offset='0 .3 0'><body name='b' pos='.5 0 .05'><freejoint/>\
-         <geom type='box' size='.05 .04 .05'/></body></replicate>",
-    );
-    let fault = import(&text, O, &Wanted::default()).expect_err("a fault");
-    let command = fault.split('`').nth(1).expect("a command").replace("python3", "PYTHON");
-    let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("FILE"), text).expect("a file");
-    let command = command.replace("PYTHON", &python);
-    let done = Command::new("sh").args(["-c", &command]).current_dir(&folder).status();
-    assert!(done.expect("a shell").success(), "{command}");
-    let flat = std::fs::read_to_string(folder.path().join("flat.xml")).expect("the flattened file");
-    let (model, ..) = parse(&flat, "flat.xml").expect("a model");
-    let made = objects(&model, "flat.xml", &Wanted::default()).expect("the advice was followed");
-    assert_eq!(made.value.task.scene.objects.len(), 2);
 }

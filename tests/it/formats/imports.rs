@@ -18,7 +18,7 @@ fn scene(text: &str, wanted: &Wanted) -> Task {
 
 /// Returns all faults of a text.
 fn faults(text: &str, as_tool: bool) -> String {
-    let wanted = Wanted::default();
+    let wanted = Wanted { strict: true, ..Wanted::default() };
     let found = parse(text, "f.xml").and_then(|(model, ..)| match as_tool {
         true => tool(&model, "f.xml", &wanted).map(|_| ()),
         false => objects(&model, "f.xml", &wanted).map(|_| ()),
@@ -139,7 +139,7 @@ fn each_unsupported_element_is_refused() {
         ),
         (
             free(&format!("{box_}<body pos='.2 0 0'><joint stiffness='1'/>{box_}</body>")),
-            "has a spring",
+            "stiffness=\"1\" of this joint is not supported",
         ),
         (mjcf(&format!("<body name='arm'><joint axis='1 0 0'/>{box_}</body>")), "`arm` is attached to the world by a hinge"),
         (mjcf("<body name='can'/>"), "no body of the file moves freely"),
@@ -150,10 +150,10 @@ fn each_unsupported_element_is_refused() {
         (free(box_).replace("0.5 0 0.05", "0.5 0 0.4"), "350.0 mm above this plane"),
         (free(box_).replace("<worldbody>", "<option gravity='0 0 -1.6'/><worldbody>"), "gravity is 0 0 -1.6"),
         (free(box_).replace("<worldbody>", "<compiler eulerseq='xyzx'/><worldbody>"), "eulerseq=\"xyzx\" is not supported"),
-        (free(box_).replace("</worldbody>", "</worldbody><equality><weld/></equality>"), "<equality> is not supported"),
+        (free(box_).replace("</worldbody>", "</worldbody><equality><weld/></equality>"), "<weld> is not supported"),
         (free(&box_.replace("/>", " mass='0'/>")), "`b` has no mass"),
         (free(&box_.replace("/>", " mass='1e7'/>")), "as a task: expected a mass in kg"),
-        ("<robot name='r'><link name='a'><visual/></link></robot>".into(), "is only visual"),
+        ("<robot name='r'><link name='a'><visual/></link></robot>".into(), "has no geometry"),
         ("<robot name='r'><link name='a'><collision><geometry><box size='1 2'/></geometry></collision></link></robot>".into(), "has 2 numbers instead of 3"),
         ("<robot><link name='a'/><link name='a'/></robot>".into(), "two links are called `a`"),
         ("<robot><link name='a'/><link name='b'/><joint type='fixed'><parent link='a'/><child link='b'/></joint><joint type='fixed'><parent link='b'/><child link='a'/></joint></robot>".into(), "form a loop"),

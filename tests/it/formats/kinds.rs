@@ -11,22 +11,22 @@ pub(super) type Taken = Result<(Task, String), String>;
 
 /// Returns the task of a text with all notes, or all faults.
 fn taken(text: &str, wanted: &Wanted) -> Taken {
-    let (model, _, mut notes) = parse(text, "f").map_err(|faults| faults.to_string())?;
+    let (model, _) = parse(text, "f").map_err(|faults| faults.to_string())?;
     let made = objects(&model, "f", wanted).map_err(|faults| faults.to_string())?;
-    notes.extend(made.notes);
-    Ok((made.value.task, notes.join("\n")))
+    Ok((made.value.task, made.notes.join("\n")))
 }
 
+/// Returns the options of an import of all bodies that assumes nothing.
 pub(super) fn all() -> Wanted {
-    Wanted::default()
+    Wanted { strict: true, ..Wanted::default() }
 }
 
 fn body(name: &str) -> Wanted {
-    Wanted { bodies: vec![name.into()], ..Wanted::default() }
+    Wanted { bodies: vec![name.into()], ..all() }
 }
 
 fn free(name: &str) -> Wanted {
-    Wanted { free: vec![name.into()], ..Wanted::default() }
+    Wanted { free: vec![name.into()], ..all() }
 }
 
 /// Returns a link of 0.5 kg and 10 x 8 x 6 cm that also contains `more`.
@@ -104,7 +104,10 @@ fn unsupported_motions_are_errors_or_notes() {
     let rolls = link("a", "")
         .replace("<inertial>", "<contact><rolling_friction value='0.1'/></contact><inertial>");
     assert!(
-        taken(&urdf(&rolls), &all()).expect("a task").1.contains("<rolling_friction> is ignored")
+        taken(&urdf(&rolls), &all())
+            .expect("a task")
+            .1
+            .contains("`value` of this rolling_friction is ignored")
     );
     let light =
         link("a", "") + "<gazebo reference='a'><turnGravityOff>true</turnGravityOff></gazebo>";
@@ -125,12 +128,15 @@ fn only_what_was_chosen_may_refuse() {
     )
     .replace("</mujoco>", "<contact><exclude body1='upper' body2='lower'/></contact></mujoco>");
     let fault = taken(&text, &all()).expect_err("faults");
-    assert!(fault.contains("has a spring") && fault.contains("select bodies with --body"));
+    assert!(
+        fault.contains("stiffness=\"3\" of this joint")
+            && fault.contains("select bodies with --body")
+    );
     let (task, notes) = taken(&text, &body("block")).expect("the advice was followed");
     assert_eq!(task.scene.objects.len(), 1);
     for note in [
         "omitted, with all bodies attached to them: upper",
-        "has a spring, and 1 more",
+        "stiffness=\"3\" of this joint is not supported, and 1 more",
         "`post` contains an element",
     ] {
         assert!(notes.contains(note), "{notes}");
@@ -257,7 +263,7 @@ fn solids_without_mass_weigh_by_their_density() {
     );
     let (task, _) = taken(&thin, &all()).expect("a task");
     assert!((task.scene.mass(0) - 0.2560064).abs() < 1e-6 && task.scene.objects[1].mass > 1e-3);
-    let light = thin.replace("density='1'", "").replace("/>", " density='5'/>");
+    let light = thin.replace("density='1'", "").replace("'/>", "' density='5'/>");
     let (task, _) = taken(&light, &all()).expect("a task");
     assert!((task.scene.mass(0) - 0.0013).abs() < 1e-4, "{}", task.scene.mass(0));
 }
@@ -269,7 +275,7 @@ fn hollow_solids_weigh_by_their_surface() {
             "<body name='b' pos='.5 0 .05'><freejoint/><geom {geom} shellinertia='true'/></body>"
         ));
         let (task, notes) = taken(&text, &all()).expect("a task");
-        assert!(notes.contains("this geom is hollow"), "{notes}");
+        assert!(notes.contains("it is hollow"), "{notes}");
         task.scene.objects[0].mass
     };
     // Reference value from MuJoCo for 5 kg/m^2.

@@ -20,10 +20,9 @@ pub(super) fn taken_of(files: &[(&str, &[u8])], reading: &Reading, wanted: &Want
     let root = reading.root.as_ref().map(|root| folder.path().join(root));
     let reading = Reading { root, ..reading.clone() };
     let path = folder.path().join(files[0].0);
-    let (model, _, mut notes) = read(&path, &reading).map_err(|faults| faults.to_string())?;
+    let (model, _) = read(&path, &reading).map_err(|faults| faults.to_string())?;
     let made = objects(&model, "f", wanted).map_err(|faults| faults.to_string())?;
-    notes.extend(made.notes);
-    Ok((made.value.task, notes.join("\n")))
+    Ok((made.value.task, made.notes.join("\n")))
 }
 
 /// Returns a cube with this side as OBJ.
@@ -41,19 +40,19 @@ pub(super) fn cube(side: f64) -> Vec<u8> {
 
 #[test]
 fn a_mesh_is_a_thing_on_the_table() {
-    let made = |unit: f64, density: Option<f64>, side: f64| {
-        let reading = Reading { unit, ..Reading::default() };
-        taken_of(&[("cube.obj", &cube(side))], &reading, &Wanted { density, ..Wanted::default() })
+    let made = |unit: Option<f64>, density: Option<f64>, side: f64| {
+        let reading = Reading { unit, strict: true, ..Reading::default() };
+        taken_of(&[("cube.obj", &cube(side))], &reading, &Wanted { density, strict: true, ..all() })
     };
-    let (task, _) = made(1e-3, Some(700.0), 60.0).expect("a task");
+    let (task, _) = made(Some(1e-3), Some(700.0), 60.0).expect("a task");
     let object = &task.scene.objects[0];
     assert_eq!(object.name, "cube");
     let area = object.shape.footprint().area();
     assert!((area - 0.0036).abs() < 1e-9 && (object.shape.height() - 0.06).abs() < 1e-9);
     assert!((object.mass - 700.0 * 0.06f64.powi(3)).abs() < 1e-9, "{}", object.mass);
-    let fault = made(1.0, Some(700.0), 60.0).expect_err("60 m");
+    let fault = made(None, Some(700.0), 60.0).expect_err("60 m");
     assert!(fault.contains("--unit mm makes it 0.060 m"), "{fault}");
-    let fault = made(1e-3, None, 60.0).expect_err("no mass");
+    let fault = made(Some(1e-3), None, 60.0).expect_err("no mass");
     assert!(fault.contains("--density 700"), "{fault}");
     let broken = taken_of(&[("cube.stl", b"solid x\nfacet")], &Reading::default(), &all());
     assert!(broken.expect_err("a fault").contains("cannot be read as a mesh"));

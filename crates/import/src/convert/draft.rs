@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 
 use crate::diagnostic::Ledger;
+use crate::mesh::Mesh;
 use crate::model::{Outline, Solid};
 use pushplan::geometry::{
     ConvexPolygon, MAX_CORNERS, PolygonError, Pose, Shape, Vector, cross, planar_hull,
@@ -10,7 +11,8 @@ use pushplan::geometry::{
 use pushplan::scene::{Object, Support};
 
 use super::feet::support;
-use super::shadow::{area, fewer};
+use super::occupancy::{Occupancy, seen};
+use super::shadow::{apart, area, fewer, reach};
 use super::upright::{Base, Rough, STRAIGHT, Upright};
 use super::weighed::Weighed;
 
@@ -23,8 +25,14 @@ const ROUGHLY: f64 = 0.02;
 /// mass above or below the middle (relative to the height), or moment of inertia.
 const WORTH_A_NOTE: f64 = 0.1;
 
+/// Deviation of a part's sides that deserves a note, metres.
+pub(super) const SEEN: f64 = 1e-4;
+
 /// Fill ratio above which a mesh counts as equal to its enclosing prism.
 const FULL: f64 = 0.9;
+
+/// Height of feet above the lowest point that is accepted, metres.
+const FEET: f64 = 1e-4;
 
 /// Ratio of contact area to covered area below which the underside may be round; a can on its side
 /// has an eighth.
@@ -44,9 +52,10 @@ pub(super) struct Standing<'a> {
     pub solid: &'a Solid,
     /// Spheres that serve as support points.
     pub feet: Vec<&'a Solid>,
-    /// Whether the solid is an object on its own, so that its centre of mass decides whether it
-    /// stands.
+    /// Whether the object rests on this solid alone, so that its contact area is the support.
     pub alone: bool,
+    /// Whether the solid is a whole object.
+    pub whole: bool,
 }
 
 /// Creates an object from a solid and its support points; also returns the height of its lowest
@@ -58,14 +67,14 @@ pub(super) fn draft(
     friction: f64,
     ledger: &mut Ledger,
 ) -> Option<(Object, f64)> {
-    let Standing { upright, solid, feet, alone } = standing;
+    let Standing { upright, solid, feet, alone, whole } = standing;
     let radius = |foot: &Solid| match foot.outline {
         Outline::Sphere(radius) => radius,
         _ => 0.0,
     };
     let reach = |foot: &&Solid| foot.pose.translation.z - radius(foot);
     let low = feet.iter().map(reach).fold(upright.low, f64::min);
-    if let Some(foot) = feet.iter().find(|foot| reach(foot) > low + 1e-6) {
+    if let Some(foot) = feet.iter().find(|foot| reach(foot) > low + FEET) {
         let message = format!("a sphere of `{name}` does not reach its lowest point");
         ledger.fault(foot.place, message, "spheres must be the support points of a body");
         return None;
@@ -125,7 +134,9 @@ pub(super) fn draft(
     let points: Vec<Vector> = points.collect();
     let support = match &upright.rough {
         Some(rough) if points.is_empty() => {
-            roughly(name, standing, rough, height, ledger);
+            if *alone && *whole {
+                roughly(name, (upright, *solid, true), rough, ledger);
+            }
             match alone {
                 true => standing_on(name, standing, rough, at, ledger),
                 false => Support::Even,
@@ -232,15 +243,14 @@ fn balanced(
 }
 
 /// Reports the deviation of a mesh from the prism or cylinder that represents it.
-fn roughly(
+pub(super) fn roughly(
     name: &str,
-    Standing { upright, solid, alone, .. }: &Standing<'_>,
+    (upright, solid, alone): (&Upright, &Solid, bool),
     rough: &Rough,
-    height: f64,
     ledger: &mut Ledger,
 ) {
     // For parts, small deviations are not reported.
-    if !alone && rough.off < 1e-4 {
+    if !alone && rough.off < SEEN {
         return;
     }
     let what = match &upright.base {
@@ -250,13 +260,31 @@ fn roughly(
     let mut note = format!(
         "`{name}` is replaced by {what} around its outline, {:.0} mm high, whose sides deviate by \
          up to {:.1} mm",
-        1e3 * height,
+        1e3 * upright.height,
         1e3 * rough.off
     );
-    if rough.fill < FULL && *alone {
+    if rough.fill < FULL && alone {
         note += &format!("; it fills {:.0} % of it", 100.0 * rough.fill);
     }
     ledger.note(solid.place, note);
+}
+
+/// Returns the note on the difference between the surfaces of a body and the outlines of the solids
+/// that represent it.
+pub(super) fn compared(name: &str, surfaces: &[&Mesh], outlines: &[Vec<Vector>]) -> String {
+    let triangles: Vec<Vec<Vector>> = surfaces.iter().flat_map(|mesh| seen(mesh)).collect();
+    let [more, less] = Occupancy::differences(&triangles, outlines);
+    let hull = planar_hull(&triangles.concat(), 0.0);
+    let solids = outlines.concat();
+    let off = apart(&hull, |direction| reach(&solids, direction));
+    format!(
+        "`{name}` is replaced by {} solids, which cover {:.1} % more of the table and {:.1} % less \
+         than its mesh; its outline is up to {:.1} mm off",
+        outlines.len(),
+        100.0 * more,
+        100.0 * less,
+        1e3 * off
+    )
 }
 
 /// Returns the support of a mesh: its contact area, if smaller than its outline.

@@ -1,15 +1,21 @@
 //! Selection of the wanted bodies, and of the bodies fixed to each other.
 
-use crate::diagnostic::Ledger;
-use crate::model::{Model, Motion};
+use crate::diagnostic::{Effect, Ledger};
+use crate::model::{Beyond, Body, Model, Motion, Solid, Weight};
 
 use super::joints::may_mount;
 use super::names::{bare, same};
 use super::wanted::Wanted;
+use super::weighed::NOTHING;
 
-/// Returns the model with the bodies of `wanted.free` detached from the world.
+/// Returns the model with the bodies of `wanted.free` detached from the world, and with its roots
+/// fixed to it if they are wanted so. If nothing is strict, the only body of a file without joints
+/// is free, and bodies that are only drawn collide.
 pub(super) fn freed(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Model {
     let mut model = model.clone();
+    ledger.note_all(&model.notes);
+    drawn(&mut model, wanted, ledger);
+    let mut wanted_free = Vec::new();
     for asked in &wanted.free {
         let named = |body: &usize| same(asked, model.name_of(*body));
         let Some(body) = (1..model.bodies.len()).find(named) else {
@@ -18,10 +24,79 @@ pub(super) fn freed(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Mode
             ledger.fault_of_file(format!("no body is called `{asked}`"), advice);
             continue;
         };
+        wanted_free.push(body);
+    }
+    if wanted.fixed {
+        let moves = |body: usize| {
+            model
+                .below(body)
+                .iter()
+                .any(|below| *below != body && model.bodies[*below].motion != Motion::Fixed)
+        };
+        let is_root = |body: &usize| model.bodies[*body].motion == Motion::Free && moves(*body);
+        let roots: Vec<usize> = (1..model.bodies.len()).filter(is_root).collect();
+        if roots.is_empty() {
+            let advice = "remove --fixed; it fixes bodies that carry a drawer or a door";
+            ledger.fault_of_file("no free body has another one jointed to it", advice);
+        }
+        roots.into_iter().for_each(|root| model.bodies[root].motion = Motion::Fixed);
+    }
+    // Libraries of objects leave the joint to the scene that includes them.
+    let still = model.bodies.iter().all(|body| body.motion == Motion::Fixed);
+    let solid = |body: &usize| {
+        model.rigid(*body).iter().any(|body| model.bodies[*body].solids.iter().any(|s| s.touches))
+    };
+    let only: Vec<usize> = model.children(0).filter(solid).collect();
+    let plain = wanted_free.is_empty() && !wanted.fixed && !wanted.strict && still;
+    if let ([body], true) = (&only[..], plain) {
+        // The body that holds the solids has the name of the object.
+        let outer = model.rigid(*body);
+        let inner = outer.iter().find(|body| !model.bodies[**body].solids.is_empty());
+        let whole = inner.filter(|inner| {
+            outer.iter().all(|body| {
+                model.bodies[*body].solids.is_empty() || model.below(**inner).contains(body)
+            })
+        });
+        let body = *whole.unwrap_or(body);
+        let note = format!(
+            "nothing moves in the file; its only body, `{}`, is taken for a free object",
+            model.name_of(body)
+        );
+        ledger.note_as(Effect::Strong, model.bodies[body].place, note);
+        wanted_free.push(body);
+    }
+    for body in wanted_free {
         model.bodies[body].motion = Motion::Free;
         model.bodies[body].parent = Some(0);
     }
     model
+}
+
+/// Lets visual shapes collide if no shape of the file does.
+fn drawn(model: &mut Model, wanted: &Wanted, ledger: &mut Ledger) {
+    let solids = || model.bodies.iter().skip(1).flat_map(|body| &body.solids);
+    if wanted.strict || solids().next().is_none() || solids().any(|solid| solid.touches) {
+        return;
+    }
+    let note = "no shape of the file collides, so its visual shapes do";
+    ledger.note_of_file(Effect::Strong, note);
+    let solids = model.bodies.iter_mut().skip(1).flat_map(|body| &mut body.solids);
+    solids.for_each(|solid| solid.touches = true);
+}
+
+/// Returns `true` if the mass of an imported body follows from a density that nobody gave.
+pub(super) fn massless(model: &Model, roots: &[usize]) -> bool {
+    let group = |root: &usize| model.below(*root);
+    let nothing = |body: &Body| match &body.inertial {
+        Some((mass, ..)) => *mass <= NOTHING,
+        None => body.solids.iter().all(|solid| solid.material.weight == Weight::Mass(0.0)),
+    };
+    roots.iter().any(|root| {
+        let bodies: Vec<&Body> = group(root).into_iter().map(|body| &model.bodies[body]).collect();
+        let of_body = |solid: &Solid| solid.material.weight == Weight::OfBody;
+        let open = |body: &&Body| body.inertial.is_none() && body.solids.iter().any(of_body);
+        bodies.iter().any(|body| open(body)) || bodies.iter().all(|body| nothing(body))
+    })
 }
 
 /// Returns the names of the bodies that have collision solids.
@@ -45,6 +120,14 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
     let fixed = model.rigid(0);
     let mut found = Vec::new();
     let (mut asked_for, mut others) = (Vec::new(), Vec::new());
+    let can = |motion: &Motion| *motion == Motion::Free || motion.is_planar() || may_mount(motion);
+    // Beside objects, what moves otherwise is left out, such as a robot.
+    let passes = !wanted.strict
+        && wanted.bodies.is_empty()
+        && model.bodies.iter().any(|body| {
+            let hangs = body.parent.is_some_and(|parent| fixed.contains(&parent));
+            hangs && can(&body.motion)
+        });
     for (index, body) in model.bodies.iter().enumerate() {
         let hangs = body.parent.is_some_and(|parent| fixed.contains(&parent));
         if !hangs || body.motion == Motion::Fixed {
@@ -71,6 +154,12 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
                 ledger.note(body.place, "the tool is not imported here; use `--as tool`");
             }
             motion if may_mount(motion) => found.push(index),
+            motion if passes => {
+                let how = held_by(motion);
+                let note =
+                    format!("`{}` is left out: it is attached to the world by {how}", body.name);
+                ledger.note_as(Effect::Strong, body.place, note);
+            }
             motion => {
                 let how = held_by(motion);
                 let message = format!("`{}` is attached to the world by {how}", body.name);
@@ -81,7 +170,10 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
         }
     }
     for asked in &wanted.bodies {
-        if !asked_for.iter().any(|name| same(asked, name)) {
+        // A body may be fixed to another one that was asked for.
+        let within = found.iter().flat_map(|root| model.below(*root));
+        let mut names = within.map(|body| model.name_of(body)).chain(asked_for.iter().copied());
+        if !names.any(|name| same(asked, name)) {
             let held = (1..model.bodies.len()).find(|body| same(asked, model.name_of(*body)));
             let advice = match (held, &others[..]) {
                 (Some(_), _) => format!("it is fixed; --free {asked} makes it free"),
@@ -92,10 +184,10 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
         }
     }
     if !others.is_empty() && !found.is_empty() && !wanted.bodies.is_empty() {
-        ledger.note_of_file(format!(
-            "omitted, with all bodies attached to them: {}",
-            listed(&others)
-        ));
+        ledger.note_of_file(
+            Effect::Some,
+            format!("omitted, with all bodies attached to them: {}", listed(&others)),
+        );
     }
     found
 }
@@ -105,11 +197,15 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
 pub(super) fn judged(model: &Model, roots: &[usize], wanted: &Wanted, ledger: &mut Ledger) {
     let chosen: Vec<usize> = roots.iter().flat_map(|root| model.below(*root)).collect();
     let mut others = Vec::new();
+    // If bodies were selected or left out, only the others can cause faults.
+    let left = |index: usize| !chosen.contains(&index) && !model.is_fixed(Some(index));
+    let all = wanted.bodies.is_empty()
+        && (wanted.strict || roots.is_empty() || !(1..model.bodies.len()).any(left));
     for (index, body) in model.bodies.iter().enumerate() {
-        if wanted.bodies.is_empty() || chosen.contains(&index) || model.is_fixed(Some(index)) {
+        if all || chosen.contains(&index) || model.is_fixed(Some(index)) {
             ledger.note_all(&body.notes);
         }
-        if wanted.bodies.is_empty() || chosen.contains(&index) {
+        if all || chosen.contains(&index) {
             ledger.take(&body.faults);
         } else {
             others.extend_from_slice(&body.faults);
@@ -150,16 +246,31 @@ pub(super) fn held_by(motion: &Motion) -> String {
     }
 }
 
-/// Reports elements of the file that would change pushes: as faults, or as notes if bodies were
-/// selected.
-pub(super) fn beyond(model: &Model, wanted: &Wanted, ledger: &mut Ledger) {
-    for (place, what) in &model.beyond {
-        if wanted.bodies.is_empty() {
-            let message = format!("{what} is not supported");
-            let advice = "remove it, or select bodies with --body";
-            ledger.fault(*place, message, advice);
-        } else {
-            ledger.note(*place, format!("{what} is ignored"));
+/// Reports elements of the file that would change pushes: as faults if they act on imported bodies,
+/// otherwise as notes.
+pub(super) fn beyond(model: &Model, roots: &[usize], wanted: &Wanted, ledger: &mut Ledger) {
+    let chosen: Vec<usize> = roots.iter().flat_map(|root| model.below(*root)).collect();
+    for Beyond { place, what, bodies } in &model.beyond {
+        let acts = match bodies {
+            Some(bodies) => bodies.iter().find(|body| chosen.contains(body)),
+            None => None,
+        };
+        // A constraint is not left out of a body that was asked for.
+        let names = |body: &usize| {
+            format!("{what} acts on `{}`, which is not supported", model.name_of(*body))
+        };
+        match acts {
+            Some(body) => {
+                ledger.fault(*place, names(body), "remove it, or select other bodies with --body")
+            }
+            None if bodies.is_none()
+                && wanted.bodies.is_empty()
+                && (wanted.strict || chosen.len() + 1 >= model.bodies.len()) =>
+            {
+                let message = format!("{what} is not supported");
+                ledger.fault(*place, message, "remove it, or select bodies with --body");
+            }
+            None => ledger.note(*place, format!("{what} is ignored")),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::diagnostic::Ledger;
+use crate::diagnostic::{Effect, Ledger};
 use crate::model::{Body, Model, Motion, Place};
 use pushplan::geometry::Vector;
 use pushplan::scene::{Joint, JointKind, Span, WorldJoint};
@@ -12,6 +12,12 @@ use super::objects::Draft;
 
 /// Maximum difference between the limits of a revolute joint, radians.
 const WIDEST: f64 = 340.0 * PI / 180.0;
+
+/// Rotation above which a limit is none, radians: files write 9999 or more for it.
+const ANGLE: f64 = 1e3;
+
+/// Maximum translation that a task can state, metres; a limit beyond it is none.
+const SHIFT: f64 = 10.0;
 
 /// Returns the joints of all bodies that are attached to an object by a joint that is not fixed.
 pub(super) fn joints(
@@ -78,6 +84,8 @@ pub(super) fn may_mount(motion: &Motion) -> bool {
 fn kind(motion: &Motion, name: &str, place: Place, ledger: &mut Ledger) -> Option<JointKind> {
     match motion {
         Motion::Hinge { axis, at, limits } if may_mount(motion) => {
+            let far = |end: f64| if end.abs() > ANGLE { end * f64::INFINITY } else { end };
+            let limits = limits.map(|limits| limits.map(far));
             let limits = limits.map(|[low, high]| match axis.z < 0.0 {
                 false => Span { low, high },
                 true => Span { low: -high, high: -low },
@@ -86,11 +94,27 @@ fn kind(motion: &Motion, name: &str, place: Place, ledger: &mut Ledger) -> Optio
             Some(JointKind::Revolute { at: Vector::new(at.x, at.y), limits })
         }
         Motion::Slide { axis, limits } if may_mount(motion) => {
-            let limits = limits.map(|[low, high]| Span { low, high });
+            let limits = limits.and_then(|limits| slides(limits, name, place, ledger));
             Some(JointKind::Prismatic { axis: axis.xy().normalize(), limits })
         }
         _ => None,
     }
+}
+
+/// Returns the limits of a prismatic joint as a task can state them: at most [`SHIFT`] from the
+/// start, or none.
+fn slides(limits: [f64; 2], name: &str, place: Place, ledger: &mut Ledger) -> Option<Span> {
+    let kept = limits.map(|end| end.clamp(-SHIFT, SHIFT));
+    let [low, high] = kept;
+    if kept == limits {
+        return Some(Span { low, high });
+    }
+    let none = high - low >= 2.0 * SHIFT;
+    let how = if none { "without limits".to_owned() } else { format!("as {low} to {high} m") };
+    let note =
+        format!("the range of `{name}` is {} to {} m; it is imported {how}", limits[0], limits[1]);
+    ledger.note_as(Effect::Slight, place, note);
+    (!none).then_some(Span { low, high })
 }
 
 /// Returns the limits of a revolute joint as a task can state them: at most 340 degrees apart, or
@@ -99,7 +123,9 @@ fn turns(limits: Span, name: &str, place: Place, ledger: &mut Ledger) -> Option<
     let Span { low, high } = limits;
     let degrees = |angle: f64| (angle.to_degrees() * 10.0).round() / 10.0;
     let stated = format!("{} to {} degrees", degrees(low), degrees(high));
-    if high - low >= 2.0 * PI {
+    // A limit on one side only is kept.
+    let unlimited = low.is_infinite() == high.is_infinite() && high - low >= 2.0 * PI;
+    if unlimited {
         let note = format!(
             "`{name}` may rotate by more than 360 degrees ({stated}); it is imported without limits"
         );

@@ -1,11 +1,15 @@
 //! Occupancy grid of the table under a body.
 
-use pushplan::geometry::Vector;
+use crate::mesh::Mesh;
+use pushplan::geometry::{Vector, planar_hull};
 
 use super::shadow::area;
 
 /// Number of grid cells along the longer side of the covered area.
 const CELLS: f64 = 160.0;
+
+/// Share of additional area in the hull of a body below which it counts as convex.
+const CONVEX: f64 = 0.03;
 
 /// Cells that a body covers, and cells enclosed by them.
 pub(super) struct Occupancy {
@@ -20,9 +24,29 @@ pub(super) struct Occupancy {
 impl Occupancy {
     /// Creates the grid of a body with convex outlines.
     pub fn filled(outlines: &[Vec<Vector>]) -> Self {
-        let all = || outlines.iter().flatten();
-        let low = all().fold(Vector::repeat(f64::INFINITY), |least, point| least.inf(point));
-        let high = all().fold(Vector::repeat(f64::NEG_INFINITY), |most, point| most.sup(point));
+        Self::within(outlines, outlines.iter().flatten())
+    }
+
+    /// Returns the areas that only the second and only the first of two bodies covers, relative to
+    /// the area of the first.
+    pub fn differences(one: &[Vec<Vector>], other: &[Vec<Vector>]) -> [f64; 2] {
+        let all = || one.iter().chain(other).flatten();
+        let [one, other] = [one, other].map(|outlines| Self::within(outlines, all()));
+        let only = |a: &Self, b: &Self| {
+            let rows = a.free.iter().zip(&b.free);
+            let is_free = |row: &[u32], x: usize| row[x + 1] > row[x];
+            let cells = rows.map(|(a, b)| {
+                (0..a.len() - 1).filter(|x| !is_free(a, *x) && is_free(b, *x)).count()
+            });
+            cells.sum::<usize>() as f64
+        };
+        [only(&other, &one), only(&one, &other)].map(|count| count / one.count as f64)
+    }
+
+    /// Creates the grid of a body with convex outlines that extends over all points.
+    fn within<'a>(outlines: &[Vec<Vector>], all: impl Iterator<Item = &'a Vector> + Clone) -> Self {
+        let low = all.clone().fold(Vector::repeat(f64::INFINITY), |least, point| least.inf(point));
+        let high = all.fold(Vector::repeat(f64::NEG_INFINITY), |most, point| most.sup(point));
         let cell = (high - low).max() / CELLS;
         let low = low - Vector::repeat(1.5 * cell);
         let size = [0, 1].map(|axis| ((high[axis] - low[axis]) / cell) as usize + 3);
@@ -85,6 +109,25 @@ impl Occupancy {
         }
         [first(&|x| x >= from, near(from)), first(&|x| x > to, near(to))]
     }
+}
+
+/// Returns the triangles of a mesh seen from above, counter-clockwise.
+pub(super) fn seen(mesh: &Mesh) -> impl Iterator<Item = Vec<Vector>> + '_ {
+    mesh.faces.iter().map(|face| {
+        let point = |corner: u32| mesh.points[corner as usize];
+        let mut corners = face.map(|corner| Vector::new(point(corner).x, point(corner).y)).to_vec();
+        if area(&corners) < 0.0 {
+            corners.reverse();
+        }
+        corners
+    })
+}
+
+/// Returns `true` for a mesh whose area seen from above, holes included, is convex.
+pub(crate) fn is_convex_above(mesh: &Mesh) -> bool {
+    let triangles: Vec<Vec<Vector>> = seen(mesh).collect();
+    let hull = planar_hull(&triangles.concat(), 0.0);
+    hull.len() > 2 && Occupancy::filled(&triangles).beyond(&hull) < CONVEX
 }
 
 /// Returns the cells that are reached from the corner of the grid without a crossing of held cells.

@@ -22,7 +22,7 @@ const FEW: usize = 8;
 /// Maximum additional area of a merge, relative to the covered area.
 const MORE: f64 = 0.01;
 
-/// Maximum difference in top height of merged solids, relative to the higher one.
+/// Maximum difference in height of merged solids, relative to the higher one.
 const LEVEL: f64 = 0.2;
 
 /// Solids with their masses, kg.
@@ -155,14 +155,16 @@ impl<'a> Merging<'a> {
         self.uneven(pair) > LEVEL
     }
 
-    /// Returns the difference in top height of two solids, relative to the higher one.
+    /// Returns the differences in height of the tops and undersides of two solids, relative to the
+    /// higher one.
     fn uneven(&self, pair: [usize; 2]) -> f64 {
         let [Some(one), Some(other)] = pair.map(|piece| self.upright(piece)) else {
             return f64::INFINITY;
         };
         let tops = [one, other].map(Upright::top);
         let low = one.low.min(other.low);
-        (tops[0] - tops[1]).abs() / (tops[0].max(tops[1]) - low)
+        let off = (tops[0] - tops[1]).abs() + (one.low - other.low).abs();
+        off / (tops[0].max(tops[1]) - low)
     }
 
     /// Returns the cost of a merge: the additional area, and a little for uneven tops. The cost is

@@ -1,19 +1,21 @@
 //! Conversion of a model to a scene, with the goals stated in the file.
 
-use crate::diagnostic::Ledger;
+use crate::diagnostic::{Effect, Ledger, lines};
 use crate::model::Model;
 use pushplan::asset::Faults;
 use pushplan::geometry::Vector;
 use pushplan::{
-    scene::{Joint, JointKind, Robot, Scene, WorldJoint},
+    scene::{Joint, JointKind, Robot, Scene, Unknowns, WorldJoint},
     task::{Goal, Task},
 };
 
 use super::frictions::frictions;
-use super::groups::{beyond, free, freed, judged, listed, solid_bodies};
+use super::groups::{beyond, free, freed, judged, listed, massless, solid_bodies};
 use super::joints::{joints, mounts};
+use super::lowered::make_way;
 use super::names::{Names, same};
-use super::objects::{drafts, placed};
+use super::objects::{Draft, drafts, placed};
+use super::slices::sliced;
 use super::statics::{empty, statics};
 use super::wanted::{Imported, Wanted};
 
@@ -44,8 +46,8 @@ pub fn objects(
     let mut ledger = Ledger::new(file, &model.files);
     let freed = freed(model, wanted, &mut ledger);
     let model = &freed;
-    beyond(model, wanted, &mut ledger);
     let roots = free(model, wanted, &mut ledger);
+    beyond(model, &roots, wanted, &mut ledger);
     judged(model, &roots, wanted, &mut ledger);
     if roots.is_empty() && wanted.bodies.is_empty() && ledger.count() == 0 {
         let advice = match &solid_bodies(model)[..] {
@@ -60,7 +62,15 @@ pub fn objects(
         };
         ledger.fault_of_file("no body of the file moves freely", advice);
     }
+    let assumed = wanted.density.is_none() && !wanted.strict && massless(model, &roots);
+    let wanted = &match assumed {
+        true => Wanted { density: Some(Wanted::DENSITY), ..wanted.clone() },
+        false => wanted.clone(),
+    };
     let mut ledger = ledger.sound()?;
+    let mut model = model.clone();
+    sliced(&mut model, &roots, wanted, &mut ledger);
+    let model = &model;
     let mut names = Names::default();
     let (mut found, mut hung) = (Vec::new(), Vec::new());
     for root in roots {
@@ -69,6 +79,21 @@ pub fn objects(
         hung.extend(joints);
     }
     found.sort_by_key(|draft| draft.body);
+    if assumed {
+        let mass = |draft: &Draft<'_>| {
+            let parts = draft.parts.iter().map(|(part, _)| part.mass).sum::<f64>();
+            format!("`{}` {:.3} kg", draft.object.name, draft.object.mass + parts)
+        };
+        let masses: Vec<String> = found.iter().map(mass).collect();
+        let note = format!(
+            "masses are not stated; with {} kg/m^3 they are {}, and the task calls them unknown \
+             (--density gives another value)",
+            Wanted::DENSITY,
+            listed(&masses.iter().map(String::as_str).collect::<Vec<_>>())
+        );
+        ledger.note_of_file(Effect::Strong, note);
+    }
+    make_way(model, &mut found, &mut ledger);
     let joints = joints(model, &found, &hung, &mut ledger);
     let mounts = mounts(model, &found, &mut ledger);
     let mut ledger = ledger.sound()?;
@@ -110,6 +135,7 @@ pub fn objects(
     let name = wanted.name.clone().unwrap_or_else(|| super::tool::name(model, file));
     let task = Task::new(name, scene, Robot::reaching(REACH[0], most), goal);
     let task = goals.into_iter().fold(task, Task::and);
+    let task = task.with_unknowns(Unknowns { masses: assumed, ..Unknowns::NONE });
     // Rules that span several bodies, such as overlaps, are checked by the task reader.
     let read = task.to_yaml().and_then(|text| Task::parse(&text, file));
     let task = match read {
@@ -130,7 +156,7 @@ pub fn objects(
         }
     };
     let (value, notes) = ledger.finish(task.map(|task| ImportedScene { task, has_goal }))?;
-    Ok(Imported { value, notes })
+    Ok(Imported { value, notes: lines(notes) })
 }
 
 fn shifted(kind: JointKind, shift: Vector) -> JointKind {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use pushplan::geometry::{MAX_CORNERS, Vector, centroid, cross, planar_hull};
+use pushplan::geometry::{ConvexPolygon, MAX_CORNERS, Pose, Vector, centroid, cross, planar_hull};
 
 use super::upright::Base;
 
@@ -34,10 +34,7 @@ pub(super) fn shadow(points: &[Vector]) -> Option<(Base, Vector, f64)> {
     if outline.len() < 3 || size < FLAT {
         return None;
     }
-    let corners = fewer(&outline);
-    if corners.len() < 3 {
-        return None;
-    }
+    let corners = sound(&outline);
     let polygon = apart(&outline, |direction| reach(&corners, direction));
     let (middle, radius) = (centroid(&outline), (size / PI).sqrt());
     let disc = apart(&outline, |direction| middle.dot(&direction) + radius);
@@ -45,6 +42,34 @@ pub(super) fn shadow(points: &[Vector]) -> Option<(Base, Vector, f64)> {
         return Some((Base::Disc(radius), middle, disc));
     }
     Some((Base::Polygon(corners), Vector::zeros(), polygon))
+}
+
+/// Returns the corners of a polygon near an outline: a rectangle around it if it is thin.
+fn sound(outline: &[Vector]) -> Vec<Vector> {
+    let (size, pose) = around(outline);
+    let corners = fewer(outline);
+    if size.iter().all(|side| *side > 2.0 * NEAREST) && ConvexPolygon::new(&corners).is_ok() {
+        return corners;
+    }
+    let [x, y] = size.map(|side| side.max(NEAREST) / 2.0);
+    [[-x, -y], [x, -y], [x, y], [-x, y]].map(|end| pose.point(Vector::from(end))).to_vec()
+}
+
+/// Returns the sides (metres) and pose of the smallest rectangle around convex corners; it shares a
+/// side with their outline.
+pub(super) fn around(corners: &[Vector]) -> ([f64; 2], Pose) {
+    let boxed = |heading: f64| {
+        let frame = Pose { position: Vector::zeros(), heading };
+        let local = || corners.iter().map(|corner| frame.local_point(*corner));
+        let low = local().fold(Vector::repeat(f64::INFINITY), |least, point| least.inf(&point));
+        let high = local().fold(Vector::repeat(f64::NEG_INFINITY), |most, point| most.sup(&point));
+        let position = frame.point((low + high) / 2.0);
+        ([high.x - low.x, high.y - low.y], Pose { position, heading })
+    };
+    let sides = corners.iter().zip(corners.iter().cycle().skip(1));
+    let all = sides.map(|(a, b)| boxed((b.y - a.y).atan2(b.x - a.x)));
+    all.min_by(|(a, _), (b, _)| (a[0] * a[1]).total_cmp(&(b[0] * b[1])))
+        .unwrap_or_else(|| boxed(0.0))
 }
 
 /// Simplifies an outline to at most the number of corners that a polygon may have, with equal area;
@@ -98,7 +123,7 @@ pub(super) fn fewer(outline: &[Vector]) -> Vec<Vector> {
     corners
 }
 
-fn reach(corners: &[Vector], direction: Vector) -> f64 {
+pub(super) fn reach(corners: &[Vector], direction: Vector) -> f64 {
     corners.iter().map(|corner| corner.dot(&direction)).fold(f64::NEG_INFINITY, f64::max)
 }
 

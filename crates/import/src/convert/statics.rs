@@ -1,13 +1,14 @@
 //! Fixed bodies: the table and the obstacles on it.
 
-use crate::diagnostic::Ledger;
+use crate::diagnostic::{Effect, Ledger};
 use crate::model::{Model, Outline, Solid};
 use pushplan::geometry::{Pose, Vector, clearance};
 use pushplan::scene::{Object, Obstacle, Robot, Scene, TableTop};
 
+use super::lowered::{hangs, passes, solids};
 use super::names::Names;
 use super::objects::Draft;
-use super::shadow::area;
+use super::shadow::{area, around};
 use super::upright::{Base, Upright};
 use super::wanted::Wanted;
 
@@ -43,13 +44,17 @@ pub(super) fn statics<'a>(
     names: &mut Names,
     ledger: &mut Ledger,
 ) -> Option<Statics<'a>> {
-    let fixed: Vec<(&str, &Solid)> = model
+    let fixed: Vec<(usize, &Solid)> = model
         .rigid(0)
         .into_iter()
-        .flat_map(|body| model.bodies[body].solids.iter().map(move |s| (model.name_of(body), s)))
+        .flat_map(|body| model.bodies[body].solids.iter().map(move |solid| (body, solid)))
         .filter(|(_, solid)| solid.touches)
         .collect();
-    let floor = floor(&fixed, drafts, ledger);
+    // The bottom of a cabinet is not the table that its drawers stand on.
+    let holds = |body: usize| drafts.iter().any(|draft| holds(model, body, draft));
+    let tables: Vec<&Solid> =
+        fixed.iter().filter(|(body, _)| !holds(*body)).map(|(_, solid)| *solid).collect();
+    let floor = floor(&tables, drafts, ledger);
     let mut level = true;
     for draft in drafts.iter().filter(|draft| draft.low < floor - STAND) {
         let (name, below) = (&draft.object.name, 1e3 * (floor - draft.low));
@@ -61,7 +66,26 @@ pub(super) fn statics<'a>(
     }
     for draft in drafts.iter().filter(|draft| draft.low > floor + STAND) {
         let (name, above) = (&draft.object.name, 1e3 * (draft.low - floor));
-        if draft.low <= floor + DROP {
+        let held = hangs(model, draft);
+        let over = |other: &&Draft<'_>| {
+            let under = |(solid, pose, [_, top]): (&Object, Pose, [f64; 2])| {
+                passes(draft, solid, &pose, top)
+            };
+            other.group != draft.group && solids(other).any(under)
+        };
+        if let Some(other) = drafts.iter().find(over).filter(|_| held) {
+            let message = format!(
+                "`{name}` hangs on its joint above `{}`, but a task holds all objects at the \
+                 height of the table",
+                other.object.name
+            );
+            let advice =
+                format!("select one of them: --body {name}, or --body {}", other.object.name);
+            ledger.fault(draft.place, message, advice);
+            level = false;
+            continue;
+        }
+        if draft.low <= floor + DROP || held {
             let note = format!(
                 "`{name}` is {above:.0} mm above the table in the file; it was lowered onto it"
             );
@@ -87,8 +111,8 @@ pub(super) fn statics<'a>(
     for (body, solid) in fixed {
         let what = match (solid.name.is_empty(), body) {
             (false, _) => solid.name.as_str(),
-            (true, "world") => "obstacle",
-            (true, body) => body,
+            (true, 0) => "obstacle",
+            (true, body) => model.name_of(body),
         };
         // The robot's base follows from the task.
         if what.trim_start_matches("obstacle/").starts_with(Robot::BASE) {
@@ -106,9 +130,23 @@ pub(super) fn statics<'a>(
             ledger.pass_over(&faults, &format!("`{what}`"));
         }
         let Some(upright) = upright else { continue };
+        let over = |draft: &&Draft<'_>| {
+            let (size, pose) = around(&upright.outline());
+            let own = Object::cuboid("", [size[0], size[1], upright.height]);
+            hangs(model, draft) && passes(draft, &own, &pose, upright.top())
+        };
+        if let Some(draft) = drafts.iter().find(over).filter(|_| holds(body)) {
+            let note = format!(
+                "`{what}` is left out, because `{}` passes above it on its joint; a task holds all \
+                 objects at the height of the table",
+                draft.object.name
+            );
+            ledger.note_as(Effect::Strong, solid.place, note);
+            continue;
+        }
         if upright.top() <= floor + STAND {
             let over = |draft: &Draft<'_>| upright.covers(draft.object.pose.position);
-            if upright.top() >= floor - STAND && drafts.iter().any(over) {
+            if upright.top() >= floor - STAND && drafts.iter().any(over) && !holds(body) {
                 found.stand_on(solid, &upright, drafts, ledger)?;
             } else {
                 ledger.note(solid.place, format!("`{what}` is below the table and is ignored"));
@@ -121,7 +159,20 @@ pub(super) fn statics<'a>(
     if found.table.is_none()
         && let Some((solid, z)) = plane
     {
-        if (z - floor).abs() > STAND {
+        let held = drafts.iter().all(|draft| hangs(model, draft)) && z < floor;
+        if held {
+            let by = 1e3 * (floor - z);
+            let note = format!(
+                "all objects hang on joints {by:.0} mm above the plane; heights count from their \
+                 underside"
+            );
+            ledger.note(solid.place, note);
+        } else if z < floor - STAND && !wanted.strict {
+            let by = 1e3 * (floor - z);
+            let note =
+                format!("the objects are {by:.0} mm above the plane; they were lowered onto it");
+            ledger.note_as(Effect::Strong, solid.place, note);
+        } else if (z - floor).abs() > STAND {
             let (side, by) = if z < floor { ("above", floor - z) } else { ("below", z - floor) };
             let by = 1e3 * by;
             let message =
@@ -181,6 +232,16 @@ impl<'a> Statics<'a> {
     }
 }
 
+/// Returns `true` for the immovable body to which an object is jointed, and those fixed to it.
+fn holds(model: &Model, body: usize, draft: &Draft<'_>) -> bool {
+    let parent = model.bodies[draft.group].parent.filter(|parent| *parent != 0);
+    let top = |body: usize| {
+        let above = std::iter::successors(Some(body), |body| model.bodies[*body].parent);
+        above.take_while(|body| *body != 0).last()
+    };
+    hangs(model, draft) && parent.is_some_and(|parent| top(parent) == top(body))
+}
+
 /// Returns the height of a level plane, metres.
 fn flat_at(solid: &Solid, what: &str, ledger: &mut Ledger) -> Option<f64> {
     let normal = solid.pose.rotation * nalgebra::Vector3::z();
@@ -194,10 +255,10 @@ fn flat_at(solid: &Solid, what: &str, ledger: &mut Ledger) -> Option<f64> {
 
 /// Returns the height of the surface under the objects, metres: the highest plane or top of a box
 /// under all of them. Without such a surface, returns the height of the lowest object.
-fn floor(fixed: &[(&str, &Solid)], drafts: &[Draft<'_>], ledger: &mut Ledger) -> f64 {
+fn floor(fixed: &[&Solid], drafts: &[Draft<'_>], ledger: &mut Ledger) -> f64 {
     let lowest = drafts.iter().map(|draft| draft.low).fold(f64::INFINITY, f64::min);
     let before = ledger.count();
-    let tops = fixed.iter().filter_map(|(_, solid)| match solid.outline {
+    let tops = fixed.iter().filter_map(|solid| match solid.outline {
         Outline::Plane(_) => Some(solid.pose.translation.z),
         Outline::Box(_) => {
             let upright = Upright::any(solid, "", ledger)?;
@@ -256,13 +317,13 @@ fn obstacle<'a>(
     });
     if let Some(draft) = within {
         let name = &draft.object.name;
-        if wanted.bodies.is_empty() {
+        if wanted.bodies.is_empty() && wanted.strict {
             let message = format!("`{what}` is not a box, and its bounding box contains `{name}`");
             let advice = "replace it by several boxes; with --body it is ignored";
             ledger.fault(solid.place, message, advice);
         } else {
             let note = format!("`{what}` is ignored, because its bounding box contains `{name}`");
-            ledger.note(solid.place, note);
+            ledger.note_as(Effect::Strong, solid.place, note);
         }
         return None;
     }
@@ -272,23 +333,6 @@ fn obstacle<'a>(
     );
     ledger.note(solid.place, note);
     Some((obstacle, solid))
-}
-
-/// Returns the sides (metres) and pose of the smallest rectangle around convex corners; it shares a
-/// side with their outline.
-fn around(corners: &[Vector]) -> ([f64; 2], Pose) {
-    let boxed = |heading: f64| {
-        let frame = Pose { position: Vector::zeros(), heading };
-        let local = || corners.iter().map(|corner| frame.local_point(*corner));
-        let low = local().fold(Vector::repeat(f64::INFINITY), |least, point| least.inf(&point));
-        let high = local().fold(Vector::repeat(f64::NEG_INFINITY), |most, point| most.sup(&point));
-        let position = frame.point((low + high) / 2.0);
-        ([high.x - low.x, high.y - low.y], Pose { position, heading })
-    };
-    let sides = corners.iter().zip(corners.iter().cycle().skip(1));
-    let all = sides.map(|(a, b)| boxed((b.y - a.y).atan2(b.x - a.x)));
-    all.min_by(|(a, _), (b, _)| (a[0] * a[1]).total_cmp(&(b[0] * b[1])))
-        .unwrap_or_else(|| boxed(0.0))
 }
 
 /// Returns the scene without objects.

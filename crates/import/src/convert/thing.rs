@@ -1,11 +1,15 @@
 //! Conversion of bodies fixed to each other to one object, compound if it has several solids.
 
-use crate::diagnostic::Ledger;
-use crate::model::{Body, Model, Outline, Solid};
+use crate::diagnostic::{Effect, Ledger};
+use crate::mesh::Mesh;
+use crate::model::Model;
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::scene::{Object, Support, Whole, bearings, hanging};
 
-use super::draft::{Standing, draft};
+use super::admitted::{
+    FRICTIONS, MASS, Owned, is_sphere, on_feet, stated, without_flat, without_points,
+};
+use super::draft::{SEEN, Standing, compared, draft};
 use super::names::{Names, bare};
 use super::objects::Draft;
 use super::pieces::{MOST, fewer};
@@ -25,13 +29,6 @@ const LEAST: f64 = 1.1e-3;
 /// Maximum number of solids of an object.
 const MANY: usize = 300;
 
-/// Collision solid, with the index of its body.
-type Owned<'a> = (usize, &'a Solid);
-
-fn is_foot(solid: &Solid) -> bool {
-    matches!(solid.outline, Outline::Sphere(_))
-}
-
 /// Returns the objects of bodies that are fixed to each other: one object, or separate objects for
 /// files written by pushplan.
 pub(super) fn of_group<'a>(
@@ -48,8 +45,13 @@ pub(super) fn of_group<'a>(
     };
     let all: Vec<Owned<'a>> = bodies.iter().flat_map(touching).collect();
     let owner = &model.bodies[group];
+    // Files written by pushplan have feet.
+    let all = match model.ours {
+        true => all,
+        false => without_points(without_flat(all, wanted, ledger), ledger),
+    };
     let mut solids: Vec<Owned<'a>> =
-        all.iter().copied().filter(|(_, solid)| !is_foot(solid)).collect();
+        all.iter().copied().filter(|(_, solid)| !is_sphere(solid)).collect();
     let Some((_, first)) = all.first() else {
         let message = format!("`{}` has no solid that collides", owner.name);
         let advice = "give it a box, a cylinder or a mesh with collision";
@@ -67,7 +69,7 @@ pub(super) fn of_group<'a>(
     // Spheres are the support points of a single solid; otherwise they are ordinary solids.
     let one_each =
         bodies.iter().all(|body| solids.iter().filter(|(owner, _)| owner == body).count() <= 1);
-    if !(one_each && (model.ours || solids.len() == 1)) && all.len() > 1 {
+    if !(one_each && (model.ours || solids.len() == 1 && on_feet(&all))) && all.len() > 1 {
         solids = all.clone();
     }
     let single = solids.len() == 1;
@@ -78,11 +80,11 @@ pub(super) fn of_group<'a>(
             true => Upright::of(solid, &name, ledger),
             false => Upright::any(solid, &name, ledger),
         };
-        let feet = all.iter().filter(|(owner, foot)| owner == body && is_foot(foot));
+        let feet = all.iter().filter(|(owner, foot)| owner == body && is_sphere(foot));
         let kept = solids.len() < all.len();
         let feet = feet.map(|(_, foot)| *foot).filter(|_| kept).collect();
         let Some(upright) = upright else { continue };
-        found.push((Standing { upright, solid, feet, alone: single }, 0.0, *body));
+        found.push((Standing { upright, solid, feet, alone: single, whole: single }, 0.0, *body));
     }
     if found.len() < solids.len() {
         return Vec::new();
@@ -98,7 +100,9 @@ pub(super) fn of_group<'a>(
         ledger.fault(owner.place, message, advice);
         return Vec::new();
     }
-    let name = names.take(&owner_name(owner, &model.bodies[found[0].2], single));
+    let mass = stated(weighed.0, [MASS, f64::INFINITY], "kg", owner, wanted, ledger);
+    let weighed = (mass, weighed.1, weighed.2);
+    let name = names.take(if single { &model.bodies[found[0].2].name } else { &owner.name });
     let place = found[0].0.solid.place;
     let Some((standing, _, body)) = (if single { found.pop() } else { None }) else {
         return compound(model, (group, &name), bodies, found, weighed, wanted, ledger)
@@ -106,6 +110,7 @@ pub(super) fn of_group<'a>(
             .collect();
     };
     let friction = standing.solid.material.friction.unwrap_or(wanted.friction);
+    let friction = stated(friction, FRICTIONS, "of friction", owner, wanted, ledger);
     let drafted = draft(&name, &standing, weighed, friction, ledger);
     let Standing { solid, feet, .. } = standing;
     let drafted = drafted.map(|(object, low)| Draft {
@@ -119,11 +124,6 @@ pub(super) fn of_group<'a>(
         low,
     });
     drafted.into_iter().collect()
-}
-
-/// Returns the name of an object: the body of its only solid, or the root body of the group.
-fn owner_name(group: &Body, body: &Body, single: bool) -> String {
-    if single { body.name.clone() } else { group.name.clone() }
 }
 
 /// Returns one object per solid for bodies fixed together in a file written by pushplan.
@@ -141,7 +141,7 @@ fn apart<'a>(
         let Some(weighed) = of_body(of, wanted.density, ledger) else { continue };
         let name = names.take(&of.name);
         let friction = standing.solid.material.friction.unwrap_or(wanted.friction);
-        let standing = Standing { alone: true, ..standing };
+        let standing = Standing { alone: true, whole: true, ..standing };
         let drafted = draft(&name, &standing, weighed, friction, ledger);
         let Standing { solid, feet, .. } = standing;
         drafts.extend(drafted.map(|(object, low)| Draft {
@@ -205,7 +205,13 @@ fn compound<'a>(
         ledger.fault(place, message, "remove those that matter least");
         return None;
     }
-    if pieces.len() < before {
+    let surfaces: Vec<&Mesh> =
+        bodies.iter().filter_map(|body| model.bodies[*body].surface.as_deref()).collect();
+    if !surfaces.is_empty() {
+        let outlines: Vec<Vec<Vector>> =
+            pieces.iter().map(|(piece, _)| piece.upright.corners()).collect();
+        ledger.note(place, compared(name, &surfaces, &outlines));
+    } else if pieces.len() < before {
         let (count, more) = (pieces.len(), 100.0 * more);
         let note = format!(
             "the {before} solids of `{name}` are merged into {count}, which cover {more:.1} % more \
@@ -213,15 +219,22 @@ fn compound<'a>(
         );
         ledger.note(place, note);
     }
+    let rough = pieces.iter().filter_map(|(piece, _)| piece.upright.rough.as_ref());
+    let off = rough.map(|rough| rough.off).fold(0.0, f64::max);
+    if surfaces.is_empty() && off >= SEEN {
+        let off = 1e3 * off;
+        let note = format!("the solids of `{name}` have sides that deviate by up to {off:.1} mm");
+        ledger.note(place, note);
+    }
     let lows = pieces.iter().map(|(piece, _)| piece.upright.low);
     let low = lows.clone().fold(f64::INFINITY, f64::min);
     // Standing solids come first.
     pieces.sort_by_key(|(piece, _)| piece.upright.low - low > HANGS);
     let friction = pieces[0].0.solid.material.friction.unwrap_or(wanted.friction);
+    let friction = stated(friction, FRICTIONS, "of friction", &model.bodies[group], wanted, ledger);
     let other = pieces.iter().map(|(piece, _)| piece.solid.material.friction);
     if other.flatten().any(|other| other != friction) {
-        let note =
-            format!("solids of `{name}` have different frictions; {friction} is used for all");
+        let note = format!("solids of `{name}` have several frictions; {friction} is used for all");
         ledger.note(place, note);
     }
     let mut masses: Vec<f64> = pieces.iter().map(|(_, share)| *share).collect();
@@ -236,6 +249,7 @@ fn compound<'a>(
         }
         heavier(&mut masses);
     }
+    let stands = pieces.iter().filter(|(piece, _)| piece.upright.low - low <= HANGS).count();
     let (mut objects, mut undersides): (Vec<Object>, Vec<f64>) = (Vec::new(), Vec::new());
     for ((mut piece, _), mass) in pieces.into_iter().zip(masses) {
         let upright = &mut piece.upright;
@@ -243,12 +257,15 @@ fn compound<'a>(
             upright.height = upright.top() - low;
             upright.low = low;
         }
+        // The contact area of the only standing solid carries the object.
+        piece.alone = stands == 1 && objects.is_empty() && piece.upright.rough.is_some();
         let called = match objects.len() {
             0 => name.to_owned(),
             number => format!("{name}/{number}"),
         };
         let (object, underside) = draft(&called, &piece, (mass, None, None), friction, ledger)?;
-        objects.push(Object { support: Support::Even, ..object });
+        let support = if piece.alone { object.support } else { Support::Even };
+        objects.push(Object { support, ..object });
         undersides.push(underside);
         if objects.len() == 1 {
             objects[0].name = name.to_owned();
@@ -357,10 +374,10 @@ fn shares<'a>(
         let space: Vec<f64> =
             own.iter().map(|k| volume(found[*k].0.solid).unwrap_or_default()).collect();
         let all: f64 = space.iter().sum();
-        if of.inertial.is_some() && own.len() > 1 {
+        if of.inertial.is_some() && of.surface.is_none() && own.len() > 1 {
             let note =
                 format!("the mass of `{}` is divided among its solids by volume", bare(&of.name));
-            ledger.note(of.place, note);
+            ledger.note_as(Effect::Slight, of.place, note);
         }
         for (k, space) in own.into_iter().zip(space) {
             let share = match of.inertial.is_some() || of.weighs.is_some() {

@@ -2,12 +2,14 @@
 
 use std::path::Path;
 
-use crate::diagnostic::Ledger;
+use crate::diagnostic::{Ledger, lines};
+use crate::mesh::Mesh;
 use crate::model::{Model, Motion};
 use pushplan::asset::{Faults, MAX_PARTS, named_after};
 use pushplan::geometry::{ConvexPolygon, Shape};
 use pushplan::scene::{Part, Tool, ToolError};
 
+use super::draft::{compared, roughly};
 use super::groups::{held_by, solid_bodies};
 use super::names::{Names, bare, same};
 use super::upright::{Base, Upright, flat};
@@ -23,6 +25,9 @@ const LEVEL: f64 = 1e-3;
 /// Returns a fault for every element that pushplan cannot express, with its place in `file`.
 pub fn tool(model: &Model, file: &str, wanted: &Wanted) -> Result<Imported<Tool>, Faults> {
     let mut ledger = Ledger::new(file, &model.files);
+    ledger.note_all(&model.notes);
+    let joined = joined(model);
+    let model = &joined;
     let body = chosen(model, wanted, &mut ledger);
     // Only the selected body can cause faults, and the world if no body was named.
     let kept: Vec<usize> = body.map_or_else(Vec::new, |body| model.below(body));
@@ -43,7 +48,18 @@ pub fn tool(model: &Model, file: &str, wanted: &Wanted) -> Result<Imported<Tool>
         ledger.adopt("tool", faults);
     }
     let (value, notes) = ledger.finish(made)?;
-    Ok(Imported { value, notes })
+    Ok(Imported { value, notes: lines(notes) })
+}
+
+/// Returns the model with the pieces of a mesh file in one body.
+fn joined(model: &Model) -> Model {
+    let mut model = model.clone();
+    if model.pieces {
+        for body in &mut model.bodies[2..] {
+            (body.parent, body.motion) = (Some(1), Motion::Fixed);
+        }
+    }
+    model
 }
 
 /// Returns the default name of the import: the model's name, or the stem of the file.
@@ -123,6 +139,7 @@ fn assemble(
     }
     let frame = flat(&model.bodies[body].pose).inverse();
     let (mut parts, mut names) = (Vec::new(), Names::default());
+    let mut outlines = Vec::new();
     let (mut frictions, mut lows) = (Vec::new(), Vec::new());
     let solids = bodies.iter().flat_map(|body| {
         let of = &model.bodies[*body];
@@ -139,6 +156,10 @@ fn assemble(
     for (of, solid) in solids {
         let name = names.take(if solid.name.is_empty() { of } else { &solid.name });
         let Some(upright) = Upright::of(solid, &format!("`{name}`"), ledger) else { continue };
+        outlines.push(upright.corners());
+        if let Some(rough) = &upright.rough {
+            roughly(&name, (&upright, solid, count == 1), rough, ledger);
+        }
         let height = upright.height;
         let mut pose = frame * upright.pose;
         let shape = match &upright.base {
@@ -160,6 +181,12 @@ fn assemble(
         frictions.push((solid.place, solid.material.friction.unwrap_or(wanted.friction)));
         lows.push((solid.place, name.clone(), upright.low));
         parts.push(Part { name, shape, pose });
+    }
+    let surfaces: Vec<&Mesh> =
+        bodies.iter().filter_map(|body| model.bodies[*body].surface.as_deref()).collect();
+    if !surfaces.is_empty() && count > 1 {
+        let name = bare(model.name_of(body));
+        ledger.note(model.bodies[body].place, compared(name, &surfaces, &outlines));
     }
     let low = lows.iter().map(|(.., low)| *low).fold(f64::INFINITY, f64::min);
     for (place, name, own) in lows.iter().filter(|(.., own)| own - low > LEVEL) {

@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::diagnostic::Ledger;
 use crate::model::{Outline, Solid};
-use pushplan::geometry::{MAX_CORNERS, Pose, Vector, centroid, cross, planar_hull};
+use pushplan::geometry::{ConvexPolygon, MAX_CORNERS, Pose, Vector, centroid, cross, planar_hull};
 
 use super::shadow::{area, shadow};
 
@@ -176,12 +176,14 @@ impl Upright {
         }
     }
 
-    /// Returns the corners of the covered area in the world, metres; a disc is approximated by
-    /// points on it.
+    /// Returns the corners of the area that the original solid covers in the world, metres.
     pub fn outline(&self) -> Vec<Vector> {
-        if let Some(rough) = &self.rough {
-            return rough.outline.clone();
-        }
+        self.rough.as_ref().map_or_else(|| self.corners(), |rough| rough.outline.clone())
+    }
+
+    /// Returns the corners of the base in the world, metres; a disc is approximated by points on
+    /// it.
+    pub fn corners(&self) -> Vec<Vector> {
         let corners = match &self.base {
             Base::Rectangle([x, y]) => {
                 [[-x, -y], [*x, -y], [*x, *y], [-x, *y]].map(|end| Vector::from(end) / 2.0).to_vec()
@@ -235,7 +237,7 @@ pub(super) fn volume(solid: &Solid) -> Option<f64> {
 
 /// Returns points whose convex hull approximates the outline, in its own frame; for round outlines
 /// the points lie on the surface.
-fn cloud(outline: &Outline) -> Vec<Point3<f64>> {
+pub(super) fn cloud(outline: &Outline) -> Vec<Point3<f64>> {
     let ball = |radii: [f64; 3], shift: f64| {
         (0..=AROUND / 2).flat_map(move |row| {
             (0..AROUND).map(move |k| {
@@ -342,6 +344,8 @@ fn prism(pose: &Isometry3<f64>, points: &[Point3<f64>]) -> Result<Upright, Strin
             return Err(format!("its {end} lacks corners of its outline{by}"));
         }
     }
+    // Otherwise, corners that are too near are merged, with a note.
+    ConvexPolygon::new(&corners).map_err(|error| error.to_string())?;
     Ok(Upright { base: Base::Polygon(corners), pose: frame, low, height: high - low, rough: None })
 }
 

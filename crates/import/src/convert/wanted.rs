@@ -9,6 +9,11 @@ pub struct Wanted {
     pub bodies: Vec<String>,
     /// Names of bodies to detach from the world, so that they stand freely.
     pub free: Vec<String>,
+    /// Whether free bodies to which others are jointed are fixed to the world, like a cabinet
+    /// against a wall.
+    pub fixed: bool,
+    /// Whether nothing is assumed, so that what a file leaves open is a fault.
+    pub strict: bool,
     /// Density of bodies that state no mass, kg/m^3.
     pub density: Option<f64>,
     /// Name of the tool or task; by default from the file.
@@ -20,6 +25,9 @@ pub struct Wanted {
 }
 
 impl Wanted {
+    /// Density of bodies that state no mass if none is given, kg/m^3: MuJoCo's default, water.
+    pub const DENSITY: f64 = 1000.0;
+
     /// Default friction value: plain wood.
     pub const FRICTION: f64 = pushplan::scene::Scene::FRICTION;
 
@@ -34,6 +42,8 @@ impl Default for Wanted {
         Self {
             bodies: Vec::new(),
             free: Vec::new(),
+            fixed: false,
+            strict: false,
             density: None,
             name: None,
             friction: Self::FRICTION,
@@ -47,6 +57,6 @@ impl Default for Wanted {
 pub struct Imported<T> {
     /// Imported tool or scene.
     pub value: T,
-    /// Small differences from the file, each with its place.
+    /// Differences from the file, each with its place, those with a strong effect on motion first.
     pub notes: Vec<String>,
 }

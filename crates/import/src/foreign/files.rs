@@ -14,6 +14,9 @@ const LONGEST: u64 = 64 << 20;
 const MOST: usize = 200;
 const DEEPEST: usize = 16;
 
+/// Number of folders above a file in which meshes are looked for.
+const ABOVE: usize = 6;
+
 /// Reason why a file is not read, with advice.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refused {
@@ -30,6 +33,10 @@ pub struct Files {
     folder: Option<PathBuf>,
     /// Folder that must contain all named files.
     root: Option<PathBuf>,
+    /// Whether the root was given, and is not just the folder of the file.
+    given: bool,
+    /// Whether meshes may also lie in folders around the file.
+    around: bool,
     /// The file and its chain of including files.
     trail: Vec<PathBuf>,
     /// Number of files found so far that name further files.
@@ -41,9 +48,47 @@ impl Files {
     pub fn of(path: &Path, root: Option<&Path>) -> Self {
         let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
+        let given = root.is_some();
         let root = root.map_or_else(|| folder.clone(), Path::to_path_buf);
         let trail = path.canonicalize().into_iter().collect();
-        Self { folder: Some(folder), root: Some(root), trail, entered: Arc::default() }
+        let (folder, root) = (Some(folder), Some(root));
+        Self { folder, root, given, around: false, trail, entered: Arc::default() }
+    }
+
+    /// Allows meshes in folders around the file, within the root if one was given.
+    pub fn around(self) -> Self {
+        Self { around: true, ..self }
+    }
+
+    /// Finds the mesh `name`, optionally in the folder `base` that the file states. Returns `true`
+    /// with it if it lies elsewhere than the file says, or outside its folder.
+    pub fn mesh(&self, base: &str, name: &str) -> Result<(PathBuf, bool), Refused> {
+        let refused = match self.find(base, name) {
+            Ok(path) => return Ok((path, false)),
+            Err(refused) => refused,
+        };
+        let folder = self.folder.as_ref().filter(|_| self.around && !Path::new(name).is_absolute());
+        let Some(folder) = folder.and_then(|folder| folder.canonicalize().ok()) else {
+            return Err(refused);
+        };
+        let root = self.root.as_ref().and_then(|root| root.canonicalize().ok());
+        let allowed = |path: &PathBuf| {
+            path.is_file()
+                && (!self.given || root.as_ref().is_some_and(|root| path.starts_with(root)))
+        };
+        let plain = name.split_once("://").map_or(name, |(_, rest)| rest);
+        let plain = plain.trim_start_matches("../").trim_start_matches("./");
+        let within = plain.split_once('/').map_or(plain, |(_, within)| within);
+        let places = folder
+            .ancestors()
+            .take(ABOVE)
+            .flat_map(|above| [above.join(plain), above.join(within)]);
+        std::iter::once(folder.join(base).join(name))
+            .chain(places)
+            .filter_map(|path| path.canonicalize().ok())
+            .find(allowed)
+            .map(|path| (path, true))
+            .ok_or(refused)
     }
 
     /// Returns the access for another file that was found; `None` if the chain is circular or too

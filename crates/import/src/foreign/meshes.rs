@@ -1,7 +1,17 @@
-//! Mesh files.
+//! Mesh files: STL, OBJ, DAE and MuJoCo's MSH.
+//!
+//! STL and OBJ are read directly: the crates for them (`stl_io` 0.11, `tobj` 4.0) read the first
+//! solid of a file only, refuse dialects that other programs read, and cut concave faces as a fan.
 
-use std::io::Cursor;
+mod dae;
+mod msh;
+mod obj;
+mod stl;
+
 use std::path::Path;
+
+use earcut::Earcut;
+use earcut::utils3d::project3d_to_2d;
 
 use pushplan::geometry::Vector3;
 
@@ -13,19 +23,32 @@ pub(super) type Triangles = (Vec<Vector3>, Vec<[u32; 3]>);
 /// Maximum number of triangles of a mesh.
 const MOST: usize = 1_000_000;
 
-/// Reads the triangles of a mesh file.
+/// Reads the triangles of a mesh file that another file names. The upward axis that a DAE file
+/// states is ignored, as by RViz and Pinocchio.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read, has another format, or has too many triangles.
 pub fn load(path: &Path) -> Result<Triangles, Refused> {
+    triangles(path, false)
+}
+
+/// Reads the triangles of a mesh file, rotated so that its upward axis is z.
+///
+/// # Errors
+/// Returns an error if the file cannot be read, has another format, or has too many triangles.
+pub(crate) fn load_upright(path: &Path) -> Result<Triangles, Refused> {
+    triangles(path, true)
+}
+
+fn triangles(path: &Path, upright: bool) -> Result<Triangles, Refused> {
     let refused = |message: String, advice: &str| Refused { message, advice: advice.to_owned() };
     let bytes = Files::bytes(path)?;
     let end = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let read = match end.as_str() {
-        "stl" => stl(bytes),
-        "obj" => obj(&bytes),
-        "msh" => msh(&bytes),
-        "dae" => super::dae::read(&bytes),
+        "stl" => stl::stl(&bytes),
+        "obj" => obj::obj(&bytes),
+        "dae" => dae::dae(&bytes, upright),
+        "msh" => msh::msh(&bytes),
         _ => {
             let message = format!("meshes with the extension .{end} are not supported");
             return Err(refused(message, "convert it to STL, OBJ or DAE (MeshLab, trimesh)"));
@@ -48,66 +71,31 @@ pub fn load(path: &Path) -> Result<Triangles, Refused> {
     }
 }
 
-fn stl(mut bytes: Vec<u8>) -> Result<Triangles, String> {
-    // Some programs start binary files with the keyword of text files; the file size decides.
-    let count = bytes.get(80..84).and_then(|four| four.try_into().ok()).map(u32::from_le_bytes);
-    let binary = count.is_some_and(|count| 84 + 50 * u64::from(count) == bytes.len() as u64);
-    if binary {
-        bytes[..5].fill(b' ');
+/// Returns triangles of a polygon, which need not be convex.
+fn triangulated(points: &[Vector3], polygon: &[u32]) -> Vec<[u32; 3]> {
+    if let [a, b, c] = *polygon {
+        return vec![[a, b, c]];
     }
-    let mesh = stl_io::read_stl(&mut Cursor::new(bytes)).map_err(|error| error.to_string())?;
-    let points = mesh.vertices.iter().map(|vertex| Vector3::from(vertex.0.map(f64::from)));
-    let faces = mesh.faces.iter().map(|face| face.vertices.map(|corner| corner as u32));
-    Ok((points.collect(), faces.collect()))
-}
-
-fn obj(bytes: &[u8]) -> Result<Triangles, String> {
-    let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
-    // Materials are not needed.
-    let none = |_: &Path| Err(tobj::LoadError::GenericFailure);
-    let (models, _) = tobj::load_obj_buf(&mut Cursor::new(bytes), &options, none)
-        .map_err(|error| error.to_string())?;
-    let (mut points, mut faces) = (Vec::new(), Vec::new());
-    for mesh in models.iter().map(|model| &model.mesh) {
-        let first = points.len() as u32;
-        points
-            .extend(mesh.positions.chunks_exact(3).map(|xyz| Vector3::new(xyz[0], xyz[1], xyz[2])));
-        let corners = mesh.indices.chunks_exact(3);
-        faces.extend(corners.map(|face| [face[0], face[1], face[2]].map(|corner| first + corner)));
+    let corners: Vec<[f64; 3]> = polygon.iter().map(|k| points[*k as usize].into()).collect();
+    let (mut flat, mut found) = (Vec::new(), Vec::<usize>::new());
+    if corners.len() < 3 || !project3d_to_2d(&corners, corners.len(), &mut flat) {
+        return Vec::new();
     }
-    Ok((points, faces))
-}
-
-/// Reads MSH: the numbers of vertices, normals, texture coordinates and triangles, followed by
-/// their data.
-fn msh(bytes: &[u8]) -> Result<Triangles, String> {
-    let word = |k: usize| {
-        let four = bytes.get(4 * k..4 * k + 4)?;
-        Some([four[0], four[1], four[2], four[3]])
+    Earcut::new().earcut(flat.iter().copied(), &[], &mut found);
+    let outwards = |three: &[usize]| {
+        let [a, b, c] = [flat[three[0]], flat[three[1]], flat[three[2]]];
+        (b[0] - a[0]) * (c[1] - a[1]) >= (b[1] - a[1]) * (c[0] - a[0])
     };
-    let count = |k: usize| {
-        let count = word(k).map(i32::from_le_bytes)?;
-        usize::try_from(count).ok().filter(|count| *count <= bytes.len())
+    let face = |three: &[usize]| match outwards(three) {
+        true => [three[0], three[1], three[2]],
+        false => [three[0], three[2], three[1]],
     };
-    let counts = [count(0), count(1), count(2), count(3)];
-    let [Some(corners), Some(normals), Some(textures), Some(triangles)] = counts else {
-        return Err("its counts are not valid".to_owned());
-    };
-    let first_face = 4 + 3 * corners + 3 * normals + 2 * textures;
-    if 4 * (first_face + 3 * triangles) != bytes.len() {
-        return Err("its length does not match its counts".to_owned());
-    }
-    let number = |k: usize| f64::from(word(k).map_or(0.0, f32::from_le_bytes));
-    let index = |k: usize| word(k).map_or(0, u32::from_le_bytes);
-    let points =
-        (0..corners).map(|k| Vector3::from([0, 1, 2].map(|axis| number(4 + 3 * k + axis))));
-    let faces = (0..triangles).map(|k| [0, 1, 2].map(|corner| index(first_face + 3 * k + corner)));
-    Ok((points.collect(), faces.collect()))
+    found.chunks_exact(3).map(face).map(|face| face.map(|corner| polygon[corner])).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{msh::msh, obj::obj, stl::stl};
 
     #[test]
     fn damaged_files_are_faults_and_no_panics() {
@@ -123,9 +111,10 @@ mod tests {
             }
             bytes
         };
-        assert_eq!(stl(whole.clone()).map(|(_, faces)| faces.len()), Ok(2));
+        assert_eq!(stl(&whole).map(|(_, faces)| faces.len()), Ok(2));
         for cut in 0..whole.len() {
-            let _ = (stl(whole[..cut].to_vec()), msh(&whole[..cut]), obj(&whole[..cut]));
+            let cut = &whole[..cut];
+            let _ = (stl(cut), msh(cut), obj(cut), super::dae::dae(cut, true));
         }
         for text in [
             "f 1 2 3",

@@ -5,8 +5,9 @@ use roxmltree::Node;
 use pushplan::geometry::Vector3;
 
 use crate::model::Outline;
+use crate::turns;
 
-use super::xml::{Flaw, element, elements, number, numbers};
+use super::xml::{Flaw, element, elements, limits, number, numbers};
 
 /// Pose stated by an `origin` element.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,7 +39,17 @@ pub enum Geometry {
 pub fn origin<'a>(node: Node<'a, 'a>) -> Result<Origin, Flaw> {
     let Some(origin) = element(node, "origin") else { return Ok(Origin::default()) };
     let three = |name: &str| origin.attribute_node(name).map_or(Ok([0.0; 3]), numbers::<3>);
-    Ok(Origin { xyz: three("xyz")?, rpy: three("rpy")? })
+    let rpy = match origin.attribute_node("quat_xyzw").map(numbers::<4>).transpose()? {
+        Some([x, y, z, w]) => {
+            let turn = turns::quaternion([w, x, y, z]).map(|turn| turn.euler_angles());
+            let (roll, pitch, yaw) = turn.ok_or_else(|| {
+                Flaw::of(origin, "`quat_xyzw` has length zero", "write `0 0 0 1` for no rotation")
+            })?;
+            [roll, pitch, yaw]
+        }
+        None => three("rpy")?,
+    };
+    Ok(Origin { xyz: three("xyz")?, rpy })
 }
 
 /// Reads the shape of a collision element.
@@ -94,13 +105,13 @@ pub fn axis<'a>(joint: Node<'a, 'a>) -> Result<Vector3, Flaw> {
     })
 }
 
-/// Reads a number of the `limit` of a joint, if stated.
+/// Reads a number of the `limit` of a joint, if stated; infinity means that there is none.
 ///
 /// # Errors
 /// Returns an error if the value is not a single number.
 pub fn limit<'a>(joint: Node<'a, 'a>, name: &str) -> Result<Option<f64>, Flaw> {
     let stated = element(joint, "limit").and_then(|limit| limit.attribute_node(name));
-    stated.map(number).transpose()
+    stated.map(|stated| limits::<1>(stated).map(|[limit]| limit)).transpose()
 }
 
 /// Returns the name of the link at an end of a joint, `parent` or `child`; empty if it is missing.

@@ -39,8 +39,20 @@ pub fn element<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
 /// # Errors
 /// Returns an error if a word is not a finite number.
 pub fn list(attribute: Attribute) -> Result<Vec<f64>, Flaw> {
+    read(attribute, f64::is_finite)
+}
+
+/// Reads exactly `N` limits of an attribute, which may be infinite.
+///
+/// # Errors
+/// Returns the errors of [`numbers`].
+pub fn limits<const N: usize>(attribute: Attribute) -> Result<[f64; N], Flaw> {
+    counted(attribute, read(attribute, |number| !number.is_nan())?)
+}
+
+fn read(attribute: Attribute, sound: fn(f64) -> bool) -> Result<Vec<f64>, Flaw> {
     let number = |word: &str| match word.parse::<f64>() {
-        Ok(number) if number.is_finite() => Ok(number),
+        Ok(number) if sound(number) => Ok(number),
         _ => {
             let message =
                 format!("`{}` contains `{word}`, which is not a number", attribute.name());
@@ -55,7 +67,10 @@ pub fn list(attribute: Attribute) -> Result<Vec<f64>, Flaw> {
 /// # Errors
 /// Returns an error for a different count of numbers, and the errors of [`list`].
 pub fn numbers<const N: usize>(attribute: Attribute) -> Result<[f64; N], Flaw> {
-    let found = list(attribute)?;
+    counted(attribute, list(attribute)?)
+}
+
+fn counted<const N: usize>(attribute: Attribute, found: Vec<f64>) -> Result<[f64; N], Flaw> {
     let count = found.len();
     <[f64; N]>::try_from(found).map_err(|_| {
         let many = if N == 1 { "one number".to_owned() } else { format!("{N} numbers") };

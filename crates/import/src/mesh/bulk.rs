@@ -1,10 +1,11 @@
 //! Mesh, with its volume, surface area and centre of mass.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
-use nalgebra::Point3;
+use nalgebra::{Isometry3, Matrix3, Point3, Rotation3};
 
 use pushplan::geometry::convex_hull;
+use pushplan::scene::DisjointSets;
 
 /// Mesh in the frame of its solid.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,19 +72,57 @@ impl Mesh {
             .map_or(0.0, |(corners, faces)| bulk(&corners, &faces, Counted::Enclosed).0)
     }
 
+    /// Returns the box of equal inertia: its pose, and its half extents in ascending order, metres.
+    pub fn inertia_box(&self) -> (Isometry3<f64>, [f64; 3]) {
+        let hull = if self.faces.is_empty() { hull(&self.points) } else { None };
+        let (points, faces) =
+            hull.as_ref().map_or((&self.points, &self.faces), |(points, faces)| (points, faces));
+        // Second moments about the centre of mass, of the tetrahedra over all triangles.
+        let (mut moments, mut volume) = (Matrix3::zeros(), 0.0);
+        for face in faces {
+            let [a, b, c] = face.map(|corner| points[corner as usize] - self.middle);
+            let held = a.dot(&b.cross(&c)) / 6.0;
+            let sum = a + b + c;
+            let squares =
+                [a, b, c, sum].map(|side| side * side.transpose()).iter().sum::<Matrix3<f64>>();
+            moments += held / 20.0 * squares;
+            volume += held;
+        }
+        let axes = (moments / volume).symmetric_eigen();
+        let mut order = [0, 1, 2];
+        order.sort_by(|a, b| axes.eigenvalues[*a].total_cmp(&axes.eigenvalues[*b]));
+        let half = order.map(|k| (3.0 * axes.eigenvalues[k].max(0.0)).sqrt());
+        let [x, y] = [order[0], order[1]].map(|k| axes.eigenvectors.column(k).into_owned());
+        let turn = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, y, x.cross(&y)]));
+        (Isometry3::from_parts(self.middle.into(), turn.into()), half)
+    }
+
+    /// Returns the pieces that share no corner, each with its own vertices, in order of their first
+    /// vertices.
+    pub fn pieces(points: &[Point3<f64>], faces: &[[u32; 3]]) -> Vec<Faces> {
+        let number = merged(points);
+        let sides = faces.iter().flat_map(|[a, b, c]| [[*a, *b], [*b, *c]]);
+        let pairs = sides.map(|pair| pair.map(|corner| number[corner as usize]));
+        let mut sets = DisjointSets::of(points.len(), pairs);
+        let names = sets.names();
+        let mut found: BTreeMap<usize, (HashMap<u32, u32>, Faces)> = BTreeMap::new();
+        for face in faces {
+            let piece = found.entry(names[number[face[0] as usize]]).or_default();
+            let (own, (corners, sides)) = piece;
+            sides.push(face.map(|corner| {
+                *own.entry(corner).or_insert_with(|| {
+                    corners.push(points[corner as usize]);
+                    corners.len() as u32 - 1
+                })
+            }));
+        }
+        found.into_values().map(|(_, piece)| piece).collect()
+    }
+
     /// Returns `true` if every edge of a triangle is shared with exactly one other triangle, in the
     /// opposite direction.
     pub fn is_closed(&self) -> bool {
-        let mut numbers = HashMap::new();
-        let place = |point: &Point3<f64>| point.coords.map(|x| (x * 1e7).round() as i64);
-        let number: Vec<usize> = self
-            .points
-            .iter()
-            .map(|point| {
-                let next = numbers.len();
-                *numbers.entry(<[i64; 3]>::from(place(point))).or_insert(next)
-            })
-            .collect();
+        let number = merged(&self.points);
         let mut sides: HashMap<[usize; 2], i32> = HashMap::new();
         for face in &self.faces {
             let [a, b, c] = face.map(|corner| number[corner as usize]);
@@ -99,7 +138,16 @@ impl Mesh {
     }
 }
 
-type Faces = (Vec<Point3<f64>>, Vec<[u32; 3]>);
+/// Vertices, and triangles as vertex indices.
+pub type Faces = (Vec<Point3<f64>>, Vec<[u32; 3]>);
+
+/// Returns for every vertex the index of the first one at its place, up to 0.1 micrometres.
+fn merged(points: &[Point3<f64>]) -> Vec<usize> {
+    let mut first = HashMap::new();
+    let place =
+        |point: &Point3<f64>| <[i64; 3]>::from(point.coords.map(|x| (x * 1e7).round() as i64));
+    points.iter().enumerate().map(|(k, point)| *first.entry(place(point)).or_insert(k)).collect()
+}
 
 fn hull(points: &[Point3<f64>]) -> Option<Faces> {
     let plain: Vec<[f64; 3]> = points.iter().map(|point| point.coords.into()).collect();

@@ -1,4 +1,4 @@
-//! Meshes: STL, OBJ and MuJoCo's own MSH.
+//! Meshes: STL, OBJ, DAE and MuJoCo's own MSH.
 //!
 //! A mesh collides as its convex hull, as in MuJoCo and Bullet; its mass follows from its volume.
 

@@ -5,8 +5,9 @@ use std::collections::HashMap;
 use nalgebra::Isometry3;
 use roxmltree::Node;
 
+use crate::Language;
 use crate::foreign::Files;
-use crate::model::{Model, Motion, Place};
+use crate::model::{Beyond, Model, Motion, Place};
 use crate::read::parsed;
 use crate::xml::Source;
 use pushplan::asset::Fault;
@@ -40,16 +41,14 @@ impl Models {
         };
         let shown = path.display().to_string();
         let found = parsed(&text, &shown, &inner);
-        let found = found.map(|(mut model, _, notes)| {
-            // Notes of the file itself, which belong to no body.
-            model.bodies[0].notes.extend(notes);
+        let found = found.map(|(mut model, _)| {
             let first = source.ledger.more_files(&model.files);
             let moved = |place: &mut Place| place.file += first;
             model.bodies.iter_mut().for_each(|body| {
                 moved(&mut body.place);
                 body.solids.iter_mut().for_each(|solid| moved(&mut solid.place));
             });
-            model.beyond.iter_mut().for_each(|(place, _)| moved(place));
+            model.beyond.iter_mut().for_each(|beyond| moved(&mut beyond.place));
             model.excluded.iter_mut().for_each(|(place, _)| moved(place));
             model
         });
@@ -67,7 +66,7 @@ impl Models {
         (onto, pose): (usize, &Isometry3<f64>),
         model: &mut Model,
     ) {
-        source.only(node, &[&["model", "body", "prefix"]]);
+        source.judge(Language::Mjcf, "attach", node, |name| node.attribute_node(name));
         let named = node.attribute("model").unwrap_or_default();
         let other = match self.0.get(named) {
             Some(Ok(other)) => other,
@@ -98,6 +97,7 @@ impl Models {
             .parent
             .map_or_else(Isometry3::identity, |parent| other.bodies[parent].pose);
         let moved = pose * there.inverse();
+        source.ledger.note_all(&other.notes);
         source.ledger.note_all(&other.bodies[0].notes);
         let mut bodies = HashMap::new();
         let mut solids = Vec::new();
@@ -142,7 +142,20 @@ impl Models {
                 model.excluded.push((*place, prefixed(names)));
             }
         }
-        model.beyond.extend(other.beyond.iter().cloned());
+        let here = |body: &usize| bodies.get(body).copied();
+        model.joints.extend(
+            other
+                .joints
+                .iter()
+                .filter_map(|(name, body)| Some((format!("{prefix}{name}"), here(body)?))),
+        );
+        for beyond in &other.beyond {
+            let named = beyond.bodies.as_ref().map(|on| on.iter().filter_map(here).collect());
+            // What acts only on bodies that are not attached has no effect.
+            if named.as_ref().is_none_or(|on: &Vec<usize>| !on.is_empty()) {
+                model.beyond.push(Beyond { bodies: named, ..beyond.clone() });
+            }
+        }
     }
 }
 

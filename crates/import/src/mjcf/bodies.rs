@@ -3,13 +3,13 @@
 use nalgebra::{Isometry3, Point3, Vector3};
 use roxmltree::Node;
 
+use crate::Language;
 use crate::model::{Body, Model, Motion};
+use crate::turns;
 use crate::xml::{Source, elements};
 
 use super::defaults::Lookup;
 use super::geoms::Context;
-
-const TURNS: [&str; 6] = ["axisangle", "euler", "pos", "quat", "xyaxes", "zaxis"];
 
 /// Elements of a body that affect neither contact nor motion.
 const UNSEEN: [&str; 3] = ["site", "camera", "light"];
@@ -22,7 +22,12 @@ struct Within<'a> {
     class: Option<&'a str>,
     /// Number of bodies and frames around it.
     depth: usize,
+    /// Number of copies of it.
+    copies: usize,
 }
+
+/// Maximum number of copies of an element.
+const MOST: usize = 5000;
 
 /// Maximum nesting depth of bodies and frames: more than any robot has joints, and safe for the
 /// stack.
@@ -40,7 +45,7 @@ pub(super) fn world<'a>(
         source,
         context,
         node,
-        Within { body: 0, pose: Isometry3::identity(), class, depth: 0 },
+        Within { body: 0, pose: Isometry3::identity(), class, depth: 0, copies: 1 },
         model,
     );
 }
@@ -69,7 +74,7 @@ fn inside<'a>(
             }
             "body" => body(source, context, child, within, model),
             "frame" => {
-                source.only(child, &[&TURNS, &["name", "childclass"]]);
+                source.judge(Language::Mjcf, tag, child, |name| child.attribute_node(name));
                 context.defaults.check(source, child, "childclass");
                 let Some(pose) = context.pose(source, element) else { continue };
                 model.bodies[within.body].faults.extend(source.ledger.since(before));
@@ -77,9 +82,12 @@ fn inside<'a>(
                 let (pose, depth) = (within.pose * pose, within.depth + 1);
                 inside(source, context, child, Within { pose, class, depth, ..within }, model);
             }
+            "replicate" => replicate(source, context, child, within, model),
             "inertial" => inertial(source, context, element, within, model),
             "joint" | "freejoint" => {
                 let motion = joint(source, context, element, within);
+                let named = child.attribute("name").map(str::to_owned);
+                model.joints.extend(named.map(|name| (name, within.body)));
                 let body = &mut model.bodies[within.body];
                 if let (Some(motion), Some(_)) = (motion, body.parent) {
                     body.motion = body.motion.clone().and(motion);
@@ -89,7 +97,7 @@ fn inside<'a>(
             tag if UNSEEN.contains(&tag) => {}
             _ => {
                 let message = format!("<{tag}> is not supported");
-                source.fault(child, message, FLATTEN);
+                source.fault(child, message, BODIES);
             }
         }
         // Faults of a body matter only if the body is imported.
@@ -98,10 +106,60 @@ fn inside<'a>(
     }
 }
 
-/// Advice to let MuJoCo's compiler expand an element.
-pub(super) const FLATTEN: &str = "flatten the file with MuJoCo: `python3 -c \"import mujoco; \
-    mujoco.mj_saveLastXML('flat.xml', mujoco.MjModel.from_xml_path('FILE'))\"`, or remove the \
-    element";
+/// Reads the content of a `replicate` element as often as it states, each time at a further pose
+/// and with a number after every name.
+fn replicate<'a>(
+    source: &mut Source<'a>,
+    context: &Context<'a>,
+    node: Node<'a, 'a>,
+    within: Within<'a>,
+    model: &mut Model,
+) {
+    source.judge(Language::Mjcf, "replicate", node, |name| node.attribute_node(name));
+    let list = |source: &mut Source<'a>, name: &str| match node.attribute_node(name) {
+        Some(three) => source.numbers::<3>(three),
+        None => Some([0.0; 3]),
+    };
+    let (offset, euler) = (list(source, "offset"), list(source, "euler"));
+    let count = node.attribute("count").and_then(|count| count.trim().parse::<usize>().ok());
+    let (Some(count), Some(offset), Some(euler)) = (count, offset, euler) else {
+        source.fault(node, "this replicate states no whole `count`", "write one, such as `4`");
+        return;
+    };
+    let copies = within.copies.saturating_mul(count.max(1));
+    if copies > MOST {
+        source.fault(node, format!("this makes more than {MOST} copies"), "use a lower `count`");
+        return;
+    }
+    let turn =
+        turns::euler(euler.map(|angle| context.compiler.angle(angle)), context.compiler.letters);
+    let step = Isometry3::from_parts(offset.into(), turn);
+    let class = node.attribute("childclass").or(within.class);
+    let (mut own, depth) = (Isometry3::identity(), within.depth + 1);
+    let width = count.saturating_sub(1).to_string().len();
+    let separator = node.attribute("sep").unwrap_or_default();
+    for number in 0..count {
+        let first =
+            (model.bodies.len(), model.bodies[within.body].solids.len(), model.joints.len());
+        let pose = within.pose * own;
+        inside(source, context, node, Within { pose, class, depth, copies, ..within }, model);
+        let added = |name: &mut String| {
+            if !name.is_empty() {
+                *name += &format!("{separator}{number:0width$}");
+            }
+        };
+        model.bodies[within.body].solids[first.1..].iter_mut().for_each(|s| added(&mut s.name));
+        model.joints[first.2..].iter_mut().for_each(|(name, _)| added(name));
+        for body in &mut model.bodies[first.0..] {
+            added(&mut body.name);
+            body.solids.iter_mut().for_each(|solid| added(&mut solid.name));
+        }
+        own *= step;
+    }
+}
+
+/// Advice for elements that cannot be read.
+pub(super) const BODIES: &str = "remove it, or write bodies with geoms instead";
 
 fn body<'a>(
     source: &mut Source<'a>,
@@ -120,16 +178,13 @@ fn body<'a>(
         return;
     }
     let before = source.ledger.count();
-    source.only(node, &[&TURNS, &["childclass", "gravcomp", "mocap", "name", "sleep", "user"]]);
+    source.judge(Language::Mjcf, "body", node, |name| node.attribute_node(name));
     context.defaults.check(source, node, "childclass");
     let class = node.attribute("childclass").or(within.class);
     let Some(pose) = context.pose(source, Lookup { node, class }) else {
         model.bodies[within.body].faults.extend(source.ledger.since(before));
         return;
     };
-    if let Some(lifted) = node.attribute_node("gravcomp").filter(|value| value.value() != "0") {
-        source.fault_of(lifted, "this body does not have its full weight", "remove `gravcomp`");
-    }
     let index = model.bodies.len();
     let name = node.attribute("name").map_or_else(|| format!("body-{index}"), str::to_owned);
     let mocap = node.attribute("mocap") == Some("true");
@@ -147,7 +202,7 @@ fn body<'a>(
     });
     let pose = within.pose * pose;
     let depth = within.depth + 1;
-    inside(source, context, node, Within { body: index, pose, class, depth }, model);
+    inside(source, context, node, Within { body: index, pose, class, depth, ..within }, model);
     // Whether a stated inertia is used depends on the compiler's settings.
     match (context.compiler.from_geoms, &model.bodies[index].inertial) {
         (Some(true), _) => model.bodies[index].inertial = None,
@@ -188,7 +243,7 @@ fn inertial<'a>(
     model: &mut Model,
 ) {
     let node = element.node;
-    source.only(node, &[&TURNS, &["mass", "diaginertia", "fullinertia"]]);
+    source.judge(Language::Mjcf, "inertial", node, |name| node.attribute_node(name));
     let Some(mass) = source.attribute(node, "mass") else {
         source.fault(node, "<inertial> states no mass", "add `mass`");
         return;
@@ -218,29 +273,20 @@ fn joint<'a>(
     within: Within<'a>,
 ) -> Option<Motion> {
     let node = element.node;
+    let find = |name: &str| context.defaults.find(element, name);
     if node.tag_name().name() == "freejoint" {
+        source.judge(Language::Mjcf, "freejoint", node, |name| node.attribute_node(name));
         return Some(Motion::Free);
     }
     context.defaults.check(source, node, "class");
-    let find = |name: &str| context.defaults.find(element, name);
     let number = |source: &mut Source<'a>, name: &str| match find(name) {
         Some(value) => source.list(value).map(|list| list.first().copied().unwrap_or_default()),
         None => Some(0.0),
     };
     let kind = find("type").map_or("hinge", |kind| kind.value());
+    source.judge(Language::Mjcf, "joint", node, find);
     if kind == "free" {
         return Some(Motion::Free);
-    }
-    let named = node.attribute("name").unwrap_or("without a name");
-    if number(source, "stiffness")? != 0.0 || find("springdamper").is_some() {
-        let message = format!("the joint {named} has a spring");
-        source.fault(node, message, "remove it; pushplan's joints have no springs");
-    }
-    for loss in ["damping", "frictionloss"] {
-        if number(source, loss)? != 0.0 {
-            let place = source.place(node);
-            source.ledger.note(place, format!("`{loss}` of the joint {named} is ignored"));
-        }
     }
     let (start, at) = (number(source, "ref")?, find("pos"));
     let axis = match find("axis") {
@@ -257,11 +303,11 @@ fn joint<'a>(
     };
     let axis = within.pose * axis;
     let limited = match find("limited").map_or("auto", |limited| limited.value()) {
-        "auto" => find("range").is_some(),
+        "auto" => context.compiler.limited && find("range").is_some(),
         limited => limited == "true",
     };
     let range = match find("range").filter(|_| limited) {
-        Some(range) => Some(source.numbers::<2>(range)?),
+        Some(range) => Some(source.limits(range)?),
         None => None,
     };
     match kind {

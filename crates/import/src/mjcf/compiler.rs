@@ -3,6 +3,7 @@
 use nalgebra::UnitQuaternion;
 use roxmltree::Node;
 
+use crate::Language;
 use crate::turns;
 use crate::xml::Source;
 
@@ -20,31 +21,18 @@ pub(super) struct Compiler {
     pub from_geoms: Option<bool>,
     /// Range of the groups of geoms that have mass, for bodies that state no mass.
     pub groups: [f64; 2],
-    /// Folder of meshes.
-    pub meshes: String,
+    /// Folder of meshes, and folder of all assets, which applies if the first is not stated.
+    pub meshes: Option<String>,
+    pub assets: String,
+    /// Whether stated ranges limit joints.
+    pub limited: bool,
+    /// Whether primitives are fitted to the bounding box of a mesh instead of its inertia.
+    pub bounding: bool,
     /// Whether folders are stripped from file names.
     pub strip: bool,
     /// Whether the volume of a mesh is its enclosed volume, as set by an old attribute.
     pub exact: bool,
 }
-
-/// Attributes of the compiler that do not affect the import.
-const HARMLESS: [&str; 14] = [
-    "alignfree",
-    "autolimits",
-    "balanceinertia",
-    "boundinertia",
-    "conflict",
-    "convexhull",
-    "discardvisual",
-    "fitaabb",
-    "fusestatic",
-    "lengthrange",
-    "saveinertial",
-    "texturedir",
-    "usethread",
-    "meshfiles",
-];
 
 impl Default for Compiler {
     fn default() -> Self {
@@ -53,7 +41,10 @@ impl Default for Compiler {
             letters: ['x', 'y', 'z'],
             from_geoms: None,
             groups: [0.0, 5.0],
-            meshes: String::new(),
+            meshes: None,
+            assets: String::new(),
+            limited: true,
+            bounding: false,
             strip: false,
             exact: false,
         }
@@ -63,6 +54,7 @@ impl Default for Compiler {
 impl Compiler {
     /// Reads a `compiler` element.
     pub fn read<'a>(&mut self, source: &mut Source<'a>, node: Node<'a, 'a>) {
+        source.judge(Language::Mjcf, "compiler", node, |name| node.attribute_node(name));
         for attribute in node.attributes() {
             let (name, value) = (attribute.name(), attribute.value());
             let mut refuse = |advice: &str| {
@@ -79,23 +71,20 @@ impl Compiler {
                 ("inertiafromgeom", "true") => self.from_geoms = Some(true),
                 ("inertiafromgeom", "false") => self.from_geoms = Some(false),
                 ("inertiafromgeom", "auto") => self.from_geoms = None,
-                ("coordinate", "local") => {}
-                ("boundmass" | "settotalmass", _) => {
-                    if value.trim().parse().is_ok_and(|bound: f64| bound <= 0.0) {
-                        continue;
-                    }
-                    refuse("write the masses themselves");
-                }
                 ("inertiagrouprange", _) => {
                     if let Some(groups) = source.numbers(attribute) {
                         self.groups = groups;
                     }
                 }
-                ("assetdir" | "meshdir", folder) => folder.clone_into(&mut self.meshes),
+                ("assetdir", folder) => folder.clone_into(&mut self.assets),
+                ("meshdir", folder) => self.meshes = Some(folder.to_owned()),
+                ("autolimits", word) => self.limited = word == "true",
+                ("fitaabb", word) => self.bounding = word == "true",
                 ("strippath", word) => self.strip = word == "true",
                 ("exactmeshinertia", word) => self.exact = word == "true",
-                (name, _) if HARMLESS.contains(&name) => {}
-                _ => refuse("correct it, or remove it"),
+                ("angle" | "inertiafromgeom", _) => refuse("correct it, or remove it"),
+                // Judged by the table.
+                _ => {}
             }
         }
     }

@@ -4,6 +4,8 @@ use std::collections::HashMap;
 
 use roxmltree::{Attribute, Node};
 
+use crate::Language;
+use crate::attributes;
 use crate::xml::{Source, elements};
 
 /// Class of elements that name none.
@@ -36,7 +38,7 @@ struct Class<'a> {
 impl<'a> Defaults<'a> {
     /// Reads a `default` element and the nested ones.
     pub fn read(&mut self, source: &mut Source<'a>, node: Node<'a, 'a>, parent: Option<&'a str>) {
-        source.only(node, &[&["class"]]);
+        source.judge(Language::Mjcf, "default", node, |_| None);
         let name = match (node.attribute("class"), parent) {
             (Some(name), _) => name,
             (None, None) => MAIN,
@@ -61,6 +63,10 @@ impl<'a> Defaults<'a> {
                 self.read(source, child, Some(name));
                 continue;
             }
+            // Attributes of a class are judged by the elements that use it.
+            if !attributes::rows(Language::Mjcf, tag).is_empty() {
+                source.judge(Language::Mjcf, tag, child, |_| None);
+            }
             let values = &mut self.classes.entry(name).or_default().values;
             values.extend(child.attributes().map(|value| ((tag, value.name()), value)));
         }
@@ -73,7 +79,8 @@ impl<'a> Defaults<'a> {
         if let Some(own) = node.attribute_node(name) {
             return Some(own);
         }
-        let tag = node.tag_name().name();
+        let section = node.parent().map_or("", |parent| parent.tag_name().name());
+        let tag = if section == "equality" { section } else { node.tag_name().name() };
         // A free joint does not inherit from `joint`, and bodies have no defaults.
         let mut class = Some(node.attribute("class").or(class).unwrap_or(MAIN));
         while let Some(found) = class.and_then(|class| self.classes.get(class)) {

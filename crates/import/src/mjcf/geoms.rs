@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
+use crate::Language;
 use crate::model::{Material, Outline, Solid, Weight};
 use crate::turns;
 use crate::xml::Source;
@@ -19,47 +20,6 @@ const DENSITY: f64 = 1000.0;
 /// Friction value of a geom that states none: MuJoCo's default.
 const FRICTION: f64 = 1.0;
 
-/// Attributes that are read.
-const READ: [&str; 22] = [
-    "axisangle",
-    "class",
-    "condim",
-    "conaffinity",
-    "contype",
-    "density",
-    "euler",
-    "friction",
-    "fromto",
-    "group",
-    "mass",
-    "mesh",
-    "name",
-    "pos",
-    "priority",
-    "quat",
-    "shellinertia",
-    "size",
-    "type",
-    "xyaxes",
-    "zaxis",
-    "hfield",
-];
-
-/// Attributes that affect only contact softness or appearance.
-const HARMLESS: [&str; 11] = [
-    "fitscale",
-    "fluidcoef",
-    "fluidshape",
-    "gap",
-    "margin",
-    "material",
-    "rgba",
-    "solimp",
-    "solmix",
-    "solref",
-    "user",
-];
-
 /// Context needed to read a geom's element.
 pub(super) struct Context<'a> {
     pub compiler: Compiler,
@@ -70,6 +30,8 @@ pub(super) struct Context<'a> {
     pub models: Models,
     /// Names of geoms in explicit contact pairs.
     pub paired: HashSet<&'a str>,
+    /// Whether equality constraints are enabled.
+    pub equality: bool,
 }
 
 impl<'a> Context<'a> {
@@ -92,9 +54,9 @@ impl<'a> Context<'a> {
         parent: &Isometry3<f64>,
     ) -> Option<Solid> {
         let node = element.node;
-        source.only(node, &[&READ, &HARMLESS]);
-        self.defaults.check(source, node, "class");
         let find = |name: &str| self.defaults.find(element, name);
+        source.judge(Language::Mjcf, "geom", node, find);
+        self.defaults.check(source, node, "class");
         let kind = find("type").map_or("sphere", |kind| kind.value());
         let sizes = match find("size") {
             Some(sizes) => source.list(sizes)?,
@@ -116,6 +78,17 @@ impl<'a> Context<'a> {
                 _ => vec![width, along.norm() / 2.0],
             };
         }
+        // A primitive with a mesh is fitted to it.
+        let fitted = find("mesh").filter(|_| !["mesh", "sdf"].contains(&kind));
+        if let Some(named) = fitted {
+            let scale = match find("fitscale") {
+                Some(scale) => source.number(scale)?,
+                None => 1.0,
+            };
+            let (own, sizes) = self.meshes.fitted(source, self, named, kind)?;
+            pose *= own;
+            halves = sizes.into_iter().map(|size| scale * size).collect();
+        }
         let outline = self.outline(source, element, kind, &halves)?;
         let flag = |source: &mut Source<'a>, name: &str| match find(name) {
             Some(bits) => source.number(bits),
@@ -129,11 +102,6 @@ impl<'a> Context<'a> {
             source.ledger.note(place, note);
         }
         let touches = kinds != 0.0 || with != 0.0 || self.paired.contains(name);
-        if let Some(condim) = find("condim").filter(|condim| condim.value() == "1" && touches) {
-            let place = source.place_of(condim);
-            let note = "`condim` 1 is ignored: the geom has its `friction`";
-            source.ledger.note(place, note);
-        }
         Some(Solid {
             name: name.to_owned(),
             place: source.place(node),
@@ -157,10 +125,6 @@ impl<'a> Context<'a> {
         };
         let [first, last] = self.compiler.groups;
         let hollow = find("shellinertia").filter(|shell| shell.value() == "true");
-        if let Some(shell) = hollow {
-            let place = source.place_of(shell);
-            source.ledger.note(place, "this geom is hollow; its mass is distributed uniformly");
-        }
         let weight = match (find("mass"), find("density")) {
             _ if group < first || group > last => Weight::Mass(0.0),
             (Some(mass), _) => Weight::Mass(source.number(mass)?),

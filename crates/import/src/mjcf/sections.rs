@@ -4,16 +4,18 @@ use std::collections::HashSet;
 
 use roxmltree::Node;
 
+use crate::Language;
 use crate::foreign::Files;
-use crate::model::{Body, Model};
+use crate::model::{Beyond, Body, Model};
 use crate::xml::{Source, elements};
 use pushplan::scene::GRAVITY;
 
 use super::attach::Models;
-use super::bodies::{FLATTEN, world};
+use super::bodies::{BODIES, world};
 use super::compiler::Compiler;
 use super::contacts::pairs;
 use super::defaults::Defaults;
+use super::equality::equality;
 use super::geoms::Context;
 use super::meshes::Meshes;
 
@@ -21,7 +23,7 @@ use super::meshes::Meshes;
 const HARMLESS: [&str; 4] = ["visual", "statistic", "size", "sensor"];
 
 /// Sections that move or hold bodies in ways that pushplan cannot express.
-const BEYOND: [&str; 5] = ["actuator", "equality", "tendon", "deformable", "extension"];
+const BEYOND: [&str; 4] = ["actuator", "tendon", "deformable", "extension"];
 
 /// Reads a `mujoco` element; returns `None` with faults if it cannot be read.
 pub(crate) fn model<'a>(
@@ -38,12 +40,18 @@ pub(crate) fn model<'a>(
         meshes: Meshes::of(files),
         models: Models::default(),
         paired: HashSet::new(),
+        equality: true,
     };
     // Sections that others depend on are read first, regardless of their order in the file.
     for section in elements(root) {
         match section.tag_name().name() {
             "compiler" => context.compiler.read(source, section),
             "default" => context.defaults.read(source, section, None),
+            "option" => {
+                let flags = elements(section).filter(|node| node.has_tag_name("flag"));
+                let off = flags.filter(|flag| flag.attribute("equality") == Some("disable"));
+                context.equality &= off.count() == 0;
+            }
             "asset" => {
                 meshes(section, &mut context);
                 for model in elements(section).filter(|asset| asset.has_tag_name("model")) {
@@ -60,27 +68,34 @@ pub(crate) fn model<'a>(
             _ => {}
         }
     }
-    for section in elements(root) {
+    source.judge(Language::Mjcf, "mujoco", root, |name| root.attribute_node(name));
+    // Joints that equality constraints and actuators name must be known.
+    let late = |tag: &str| tag == "equality" || tag == "actuator";
+    let (last, first): (Vec<_>, Vec<_>) =
+        elements(root).partition(|section| late(section.tag_name().name()));
+    for section in first.into_iter().chain(last) {
         match section.tag_name().name() {
             "compiler" | "default" | "asset" | "custom" => {}
+            "equality" => equality(source, &context, section, &mut model),
             "worldbody" => world(source, &context, section, &mut model),
             "contact" => pairs(source, &context, section, &mut model),
             "option" => option(source, section),
             "keyframe" => {
-                if elements(section).any(|key| key.has_attribute("qpos")) {
-                    let note = "keyframes are ignored: the poses of bodies and joints are used";
-                    let place = source.place(section);
-                    source.ledger.note(place, note);
+                for key in elements(section) {
+                    source.judge(Language::Mjcf, "key", key, |name| key.attribute_node(name));
                 }
             }
             tag if HARMLESS.contains(&tag) => {}
             tag if BEYOND.contains(&tag) => {
                 let of_arm = model.ours && tag == "actuator";
                 if elements(section).next().is_some() && !of_arm {
-                    model.beyond.push((source.place(section), format!("<{tag}>")));
+                    let place = source.place(section);
+                    let joint = |node| model.joint(Node::attribute(&node, "joint")?);
+                    let bodies = elements(section).map(joint).collect();
+                    model.beyond.push(Beyond { place, what: format!("<{tag}>"), bodies });
                 }
             }
-            tag => source.fault(section, format!("<{tag}> is not supported"), FLATTEN),
+            tag => source.fault(section, format!("<{tag}> is not supported"), BODIES),
         }
     }
     Some(model)
@@ -99,22 +114,9 @@ fn meshes<'a>(section: Node<'a, 'a>, context: &mut Context<'a>) {
 /// Reports options that change the motion of bodies.
 fn option<'a>(source: &mut Source<'a>, option: Node<'a, 'a>) {
     gravity(source, option);
-    for (name, what) in [("density", "the medium"), ("viscosity", "the medium"), ("wind", "wind")] {
-        let stated = option.attribute(name).unwrap_or_default();
-        if stated.split_whitespace().any(|word| word.parse().is_ok_and(|value: f64| value != 0.0)) {
-            let place = source.place(option);
-            source
-                .ledger
-                .note(place, format!("`{name}` is ignored: {what} exerts no force in pushplan"));
-        }
-    }
+    source.judge(Language::Mjcf, "option", option, |name| option.attribute_node(name));
     for flag in elements(option).filter(|node| node.has_tag_name("flag")) {
-        for name in ["gravity", "contact", "constraint", "limit"] {
-            if let Some(off) = flag.attribute_node(name).filter(|flag| flag.value() == "disable") {
-                let message = format!("{name} is disabled, but pushplan always simulates it");
-                source.fault_of(off, message, "remove the flag");
-            }
-        }
+        source.judge(Language::Mjcf, "flag", flag, |name| flag.attribute_node(name));
     }
 }
 

@@ -66,9 +66,17 @@ fn bodies_and_joints_of_mjcf_follow_the_advice() {
             )],
         ),
         (
-            free(BOX).replace("</mujoco>", "<equality><weld body1='b'/></equality></mujoco>"),
+            free(BOX).replace("</mujoco>", "<tendon><spatial/></tendon></mujoco>"),
             "remove it, or select bodies with --body",
-            &[("<equality><weld body1='b'/></equality>", "")],
+            &[("<tendon><spatial/></tendon>", "")],
+        ),
+        (
+            second(".9 0 .05").replace(
+                "</mujoco>",
+                "<equality><connect body1='b' body2='c'/></equality></mujoco>",
+            ),
+            "remove it, or select other bodies with --body",
+            &[("<connect body1='b' body2='c'/>", "")],
         ),
         (
             second(".9 0 .05")

@@ -14,7 +14,11 @@ fn helped(refused: Folder<'_>, advice: &str, followed: Folder<'_>) {
     let taken = |(files, root): Folder<'_>| {
         let texts = files.iter().map(|(name, text)| (*name, text.as_bytes()));
         let files: Vec<(&str, &[u8])> = texts.chain([("parts/cube.obj", &solid[..])]).collect();
-        taken_of(&files, &Reading { root: root.map(Into::into), ..Reading::default() }, &all())
+        taken_of(
+            &files,
+            &Reading { root: root.map(Into::into), strict: true, ..Reading::default() },
+            &all(),
+        )
     };
     let fault = taken(refused).expect_err(advice);
     assert!(fault.contains(advice), "{advice}\nnot in\n{fault}");
@@ -59,16 +63,12 @@ fn files_are_found_and_read_after_following_the_advice() {
             attached(" file='other.xml'"),
         ),
         (whole(&mesh("cube.obj")), "names are relative to the folder of the file", sound.clone()),
-        (whole(&mesh("cube.dae")), "convert it to STL or OBJ", sound.clone()),
+        (whole(&mesh("cube.ply")), "convert it to STL, OBJ or DAE", sound.clone()),
         (whole(&mesh("cube.stl")), "export it again (MeshLab, trimesh)", sound.clone()),
         (assets.clone(), "give the file that includes this one", included.clone()),
     ] {
-        let beside = [
-            other,
-            ("assets.xml", &assets),
-            ("cube.dae", "<COLLADA/>"),
-            ("cube.stl", "solid x\nfacet"),
-        ];
+        let beside =
+            [other, ("assets.xml", &assets), ("cube.ply", "ply"), ("cube.stl", "solid x\nfacet")];
         let folder = |text| [&[(scene, text)], &beside[..]].concat();
         helped((&folder(&refused), None), advice, (&folder(&followed), None));
     }

@@ -59,7 +59,7 @@ fn links_and_joints_of_urdf_follow_the_advice() {
         ),
         (
             urdf(&one.replace("collision", "visual")),
-            "add a <collision> with its box",
+            "give it a box, a cylinder or a mesh with collision",
             &[("</link>", &format!("<collision><geometry>{cube}</geometry></collision></link>"))],
         ),
         (
@@ -79,7 +79,7 @@ fn links_and_joints_of_urdf_follow_the_advice() {
         ),
         (
             parted("<inertial/>"),
-            "add `<mass value=\"...\"/>` in kilograms",
+            "or add <inertial> with its <mass>",
             &[("<inertial/>", "<inertial><mass value='.5'/></inertial>")],
         ),
         (

@@ -133,7 +133,7 @@ fn numbers_and_names_of_mjcf_are_corrected_by_the_advice() {
         ),
         (
             free(BOX).replace("name='b'", "name='b' gravcomp='1'"),
-            "remove `gravcomp`",
+            "remove it; in pushplan every body has its full weight",
             &[(" gravcomp='1'", "")],
         ),
         (
