@@ -7,8 +7,10 @@ use pushplan_report::{ScenePicture, task_stage};
 /// Colour of goals in pictures.
 const COLOUR: &str = "#9c36b5";
 
-/// Kinds of goals, each with a shipped task and replacements in its text.
-const KINDS: [(&str, &str, &[(&str, &str)]); 10] = [
+/// A kind of goal, with a shipped task and replacements in its text.
+type Kind = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
+
+const KINDS: [Kind; 10] = [
     ("place", "pull-back", &[]),
     ("heading", "turn-the-box", &[]),
     ("symmetric heading", "two-places", &[]),

@@ -73,7 +73,10 @@ impl<'a> Pieces<'a> {
             let rates = [speed, acceleration / longer, jerk / (longer * longer)];
             let points = self.timed(line, rates)?;
             let found = strain(self.arm, &points, 1.0, true);
-            let Some(fault) = found.fault(self.arm) else { return Ok(self.append(points)) };
+            let Some(fault) = found.fault(self.arm) else {
+                self.append(points);
+                return Ok(());
+            };
             // Only ramps can become longer: a joint that is too fast is too fast everywhere.
             longer *= LONGER;
             if longer > LONGEST || found.ratios[0] > 1.0 || found.limit.is_some() {
@@ -87,7 +90,10 @@ impl<'a> Pieces<'a> {
         for attempt in 1.. {
             let points = self.timed(line, rates)?;
             let found = strain(self.arm, &points, SHARE, false);
-            let Some(fault) = found.fault(self.arm) else { return Ok(self.append(points)) };
+            let Some(fault) = found.fault(self.arm) else {
+                self.append(points);
+                return Ok(());
+            };
             let [speed, acceleration, jerk] = found.ratios;
             let slower = 1.01 * speed.max(acceleration.sqrt()).max(jerk.cbrt());
             if attempt == ATTEMPTS || found.limit.is_some() {
@@ -181,8 +187,9 @@ impl<'a> Spline<'a> {
             }
         }
         for k in (1..count.saturating_sub(2)).rev() {
-            for joint in 0..joints {
-                bends[k][joint] -= upper[k] * bends[k + 1][joint];
+            let (before, after) = bends.split_at_mut(k + 1);
+            for (bend, next) in before[k].iter_mut().zip(&after[0]) {
+                *bend -= upper[k] * next;
             }
         }
         Self { points, bends }

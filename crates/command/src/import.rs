@@ -10,7 +10,7 @@ use pushplan_import::{Imported, ImportedScene, Language, Reading, Wanted, object
 
 use super::{error::CliError, exit_code, session::Session};
 
-/// Import a tool or objects from an MJCF (MuJoCo) or URDF (ROS) file, or from a mesh (STL, OBJ, DAE)
+/// Import a tool or objects from a file of MuJoCo (MJCF) or ROS (URDF), or a mesh (STL, OBJ, DAE)
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:

@@ -62,7 +62,7 @@ pub(crate) fn row(rows: &'static [Row], attribute: &str) -> Option<&'static Row>
 
 impl Row {
     /// Returns `true` for a value with an effect on motion.
-    pub fn tells(&self, value: &str) -> bool {
+    pub fn applies(&self, value: &str) -> bool {
         let neutral = |word: &str| {
             self.neutral.split('|').any(|neutral| {
                 match (word.parse::<f64>(), neutral.parse::<f64>()) {

@@ -82,7 +82,7 @@ impl<'a> Source<'a> {
             }
         }
         for row in rows {
-            if let Some(stated) = find(row.name).filter(|stated| row.tells(stated.value())) {
+            if let Some(stated) = find(row.name).filter(|stated| row.applies(stated.value())) {
                 self.report(tag, stated, row);
             }
         }
@@ -114,7 +114,7 @@ impl<'a> Source<'a> {
         read.map_err(note).ok()
     }
 
-    /// Notes that a mesh is not where the file says.
+    /// Notes that a mesh is not where the file states.
     pub fn elsewhere(&mut self, node: Node<'a, 'a>, name: &str, path: &Path) {
         let place = self.place(node);
         let note =

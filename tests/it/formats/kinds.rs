@@ -263,7 +263,7 @@ fn solids_without_mass_weigh_by_their_density() {
     );
     let (task, _) = taken(&thin, &all()).expect("a task");
     assert!((task.scene.mass(0) - 0.2560064).abs() < 1e-6 && task.scene.objects[1].mass > 1e-3);
-    let light = thin.replace("density='1'", "").replace("'/>", "' density='5'/>");
+    let light = thin.replace(" density='1'", "").replace("'/>", "' density='5'/>");
     let (task, _) = taken(&light, &all()).expect("a task");
     assert!((task.scene.mass(0) - 0.0013).abs() < 1e-4, "{}", task.scene.mass(0));
 }

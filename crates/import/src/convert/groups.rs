@@ -95,7 +95,7 @@ pub(super) fn massless(model: &Model, roots: &[usize]) -> bool {
         let bodies: Vec<&Body> = group(root).into_iter().map(|body| &model.bodies[body]).collect();
         let of_body = |solid: &Solid| solid.material.weight == Weight::OfBody;
         let open = |body: &&Body| body.inertial.is_none() && body.solids.iter().any(of_body);
-        bodies.iter().any(|body| open(body)) || bodies.iter().all(|body| nothing(body))
+        bodies.iter().any(open) || bodies.iter().all(|body| nothing(body))
     })
 }
 

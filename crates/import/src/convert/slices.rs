@@ -147,7 +147,7 @@ fn of_solid(solid: &Solid, whole: Option<&Mesh>) -> Option<Vec<Solid>> {
             .filter(|z| (from..to).contains(z))
             .map(|z| section(&corners, &faces, z) * (high - low) / layers as f64)
             .sum();
-        // The lowest slice stands on what touches the table.
+        // The lowest slice has the outline that touches the table.
         let touches = |z: f64| from > low || z <= low + LEVEL;
         let flat = between(low, to).into_iter();
         let points = flat.flat_map(|[x, y, z]| {

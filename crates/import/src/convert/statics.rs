@@ -75,7 +75,7 @@ pub(super) fn statics<'a>(
         };
         if let Some(other) = drafts.iter().find(over).filter(|_| held) {
             let message = format!(
-                "`{name}` hangs on its joint above `{}`, but a task holds all objects at the \
+                "`{name}` is held by its joint above `{}`, but a task holds all objects at the \
                  height of the table",
                 other.object.name
             );
@@ -163,7 +163,7 @@ pub(super) fn statics<'a>(
         if held {
             let by = 1e3 * (floor - z);
             let note = format!(
-                "all objects hang on joints {by:.0} mm above the plane; heights count from their \
+                "joints hold all objects {by:.0} mm above the plane; heights count from their \
                  underside"
             );
             ledger.note(solid.place, note);

@@ -14,8 +14,9 @@ const LONGEST: u64 = 64 << 20;
 const MOST: usize = 200;
 const DEEPEST: usize = 16;
 
-/// Number of folders above a file in which meshes are looked for.
-const ABOVE: usize = 6;
+/// Number of folders above the folder of a file in which meshes are searched, as in packages that
+/// keep descriptions and meshes in separate folders.
+const ABOVE: usize = 3;
 
 /// Reason why a file is not read, with advice.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,7 +62,7 @@ impl Files {
     }
 
     /// Finds the mesh `name`, optionally in the folder `base` that the file states. Returns `true`
-    /// with it if it lies elsewhere than the file says, or outside its folder.
+    /// with it if it lies elsewhere than the file states, or outside its folder.
     pub fn mesh(&self, base: &str, name: &str) -> Result<(PathBuf, bool), Refused> {
         let refused = match self.find(base, name) {
             Ok(path) => return Ok((path, false)),
@@ -71,18 +72,20 @@ impl Files {
         let Some(folder) = folder.and_then(|folder| folder.canonicalize().ok()) else {
             return Err(refused);
         };
-        let root = self.root.as_ref().and_then(|root| root.canonicalize().ok());
+        // The root folder of the file system is not a package.
+        let above: Vec<&Path> =
+            folder.ancestors().take(ABOVE + 1).filter(|above| above.parent().is_some()).collect();
+        let given = self.root.as_ref().filter(|_| self.given);
+        let root = given.map(|root| root.canonicalize().unwrap_or_default());
         let allowed = |path: &PathBuf| {
             path.is_file()
-                && (!self.given || root.as_ref().is_some_and(|root| path.starts_with(root)))
+                && above.last().is_some_and(|highest| path.starts_with(highest))
+                && root.as_ref().is_none_or(|root| path.starts_with(root))
         };
         let plain = name.split_once("://").map_or(name, |(_, rest)| rest);
         let plain = plain.trim_start_matches("../").trim_start_matches("./");
         let within = plain.split_once('/').map_or(plain, |(_, within)| within);
-        let places = folder
-            .ancestors()
-            .take(ABOVE)
-            .flat_map(|above| [above.join(plain), above.join(within)]);
+        let places = above.iter().flat_map(|above| [above.join(plain), above.join(within)]);
         std::iter::once(folder.join(base).join(name))
             .chain(places)
             .filter_map(|path| path.canonicalize().ok())

@@ -11,7 +11,7 @@ pub(super) fn obj(bytes: &[u8]) -> Result<Triangles, String> {
     let (mut points, mut faces) = (Vec::new(), Vec::new());
     let (mut polygons, mut joined) = (Vec::new(), String::new());
     for (line, words) in text.lines().enumerate() {
-        // A line may go on after a backslash.
+        // A backslash continues a line.
         if let Some(begun) = words.trim_end().strip_suffix('\\') {
             joined += begun;
             joined.push(' ');
