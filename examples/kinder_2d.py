@@ -69,7 +69,7 @@ def board_of(state: State, support: float, friction: float) -> Board:
     bar = shapely.box(-across / 2, -width, across / 2, 0)
     stem = shapely.box(-width / 2, -width - along, width / 2, -width)
     shape = shapely.union_all([bar, stem])
-    inside = [(x, y) for x in np.arange(-95, 96, 10) for y in np.arange(-205, 6, 10)]
+    inside = [(x, y) for x in range(-95, 96, 10) for y in range(-205, 6, 10)]
     return Board(
         task=task,
         tool=tool,

@@ -58,6 +58,7 @@ __all__ = [
     "RobotKeys",
     "SceneKeys",
     "ShapeKeys",
+    "StandKeys",
     "SupportKeys",
     "TableKeys",
     "TaskFile",
@@ -165,12 +166,17 @@ class ReachKeys(TypedDict):
 HandKeys = TypedDict("HandKeys", {"radius": float, "from": float}, total=False)
 
 
-class BasePoseKeys(TypedDict, total=False):
+class StandKeys(TypedDict, total=False):
+    """Height of an arm's root in metres, and its rotation; the former keys of `base`."""
+
+    height: float
+    yaw_deg: float
+
+
+class BasePoseKeys(StandKeys, total=False):
     """Pose of an arm's root: position and height in metres, and its rotation."""
 
     position: Numbers
-    height: float
-    yaw_deg: float
 
 
 class JointLimitKeys(TypedDict, total=False):
@@ -199,7 +205,7 @@ class RobotKeys(TypedDict):
     arm: NotRequired[Any]
     max_force: NotRequired[float]
     hand: NotRequired[Union[Literal["none"], HandKeys]]
-    base: NotRequired[Union[Literal["none"], float, BasePoseKeys]]
+    base: NotRequired[Union[Literal["none"], float, StandKeys]]
     base_pose: NotRequired[BasePoseKeys]
     joint_limits: NotRequired[JointLimitKeys]
     travel: NotRequired[float]

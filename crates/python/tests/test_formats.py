@@ -28,7 +28,7 @@ def test_what_mujoco_reads_is_what_is_imported(root: Path) -> None:
     model = mujoco.MjModel.from_xml_path(str(root / KITCHEN))
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    with pytest.warns(UserWarning, match="`damping` of the joint"):
+    with pytest.warns(UserWarning, match="`damping` of this joint"):
         task = pushplan.import_task(root / KITCHEN)
     scene: Any = task.to_dict()["scene"]
     bodies = {
@@ -105,10 +105,10 @@ def assert_alike(one: Any, other: Any, where: str = "") -> None:
 
 
 def test_a_loaded_model_becomes_what_its_file_does(root: Path, task: pushplan.Task) -> None:
-    with pytest.warns(UserWarning, match="`damping` of the joint"):
+    with pytest.warns(UserWarning, match="`damping` of this joint"):
         wanted = pushplan.import_task(root / KITCHEN)
     model = mujoco.MjModel.from_xml_path(str(root / KITCHEN))
-    with pytest.warns(UserWarning, match="`damping` of the joint"):
+    with pytest.warns(UserWarning, match="`damping` of this joint"):
         found = pushplan.scene_from(model, name=wanted.name)
     assert_alike(wanted.to_dict()["scene"], found.to_dict()["scene"])
     # Without a file, and with the goal stored in an exported plan.

@@ -256,7 +256,7 @@ fn every_error_has_its_location() {
         (
             "[0.25, 0], [0.5, 0.1, 10]",
             "[250, 0], [350, 100, 10]",
-            "r.yaml:13:45: error: a position 350 m from the origin: is this in millimetres?",
+            "r.yaml:13:46: error: a position 350 m from the origin: is this in millimetres?",
         ),
         ("pusher: {cylinder", "pusher: {cilinder", "r.yaml:7:10: error: unknown key `cilinder`"),
         (
