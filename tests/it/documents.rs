@@ -10,7 +10,7 @@ use pushplan_report::DocumentKind;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-use crate::program::{run, stderr};
+use crate::program::{interrupt, run, stderr};
 use crate::{PROGRAM, ROOT};
 
 /// Returns the document of a command line, which must end with one of these exit codes.
@@ -176,7 +176,7 @@ fn an_interrupted_solve_prints_its_document() {
     std::thread::sleep(Duration::from_millis(700));
     assert!(child.try_wait().expect("a child").is_none(), "solved in {:?}", begun.elapsed());
     let id = child.id().to_string();
-    Command::new("kill").args(["-INT", &id]).status().expect("a signal is sent");
+    interrupt(&id);
     let output = child.wait_with_output().expect("the command ends");
     assert_eq!(output.status.code(), Some(130));
     let solution: Json = serde_json::from_slice(&output.stdout).expect("a document");

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-use crate::program::succeed;
+use crate::program::{interrupt, succeed};
 
 /// Runs a resumable command once without and once with an interruption, and compares the files.
 pub fn goes_on_after_an_interruption(command: &str, options: &str) {
@@ -52,7 +52,7 @@ pub fn interrupted(line: &str, until: impl Fn() -> bool) -> Output {
         std::thread::sleep(Duration::from_millis(1));
     }
     let id = child.id().to_string();
-    Command::new("kill").args(["-INT", &id]).status().expect("a signal is sent");
+    interrupt(&id);
     let output = child.wait_with_output().expect("the command ends");
     // On a fast machine the command may finish before the signal arrives.
     assert!(matches!(output.status.code(), Some(130 | 0)), "{output:?}");
