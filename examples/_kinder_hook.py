@@ -300,7 +300,7 @@ class HookGame(Episode):
         return pushplan.Tool.from_dict(whole)
 
     def value(self, poses: Floats) -> Floats:
-        """Returns the distance of the block from the middle wall, with what is in its way.
+        """Returns the distance of the block from the middle wall, with obstructions in its way.
 
         ``poses`` is ``[..., blocks, 3]``.
         """

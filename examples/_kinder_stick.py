@@ -44,7 +44,7 @@ class StickGame(Episode):
         self.go(robot["x"], min(robot["y"], foot - BELOW))
         self.go(float(np.clip(middle, self.low, WIDE - self.low)), foot - BELOW)
         self.go(float(np.clip(middle, self.low, WIDE - self.low)), foot)
-        # The vacuum holds what it touched in the state before a step.
+        # The vacuum holds objects that it touched before the step.
         self.vacuum = 1.0
         self.act([0.0, 0.0, 0.0, 0.0, self.vacuum])
         top = stick["height"] + reach + TAKEN

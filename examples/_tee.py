@@ -5,10 +5,11 @@ the push with the smallest expected number of steps to success. Lengths are pixe
 in the task, and points of the plane are complex numbers.
 """
 
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -261,3 +262,34 @@ def choose(goal: Goal, agent: complex, pose: Floats) -> Push | None:
     if not np.isfinite(best[one]):
         return None
     return Push(complex(first.start[order[one]]), complex(tips[one]), float(best[one]))
+
+
+class Player(Protocol):
+    """Game in which a finger pushes a T."""
+
+    goal: Goal
+    pushes: int
+    seconds: float
+
+    @property
+    def agent(self) -> complex: ...
+    @property
+    def pose(self) -> Floats: ...
+    @property
+    def over(self) -> bool: ...
+    def follow(self, corners: list[complex]) -> None: ...
+    def push(self, end: complex) -> None: ...
+
+
+def play(game: Player) -> None:
+    """Plans and executes pushes until the game is over or no push helps."""
+    while not game.over:
+        began = time.process_time()
+        push = choose(game.goal, game.agent, game.pose)
+        way = Way(game.goal.board, game.agent, game.pose).to(push.start) if push else []
+        game.seconds += time.process_time() - began
+        if push is None:
+            break
+        game.pushes += 1
+        game.follow(way)
+        game.push(push.end)

@@ -12,7 +12,6 @@ with the friction of the finger from twenty own pushes of a T in other episodes.
 """
 
 import argparse
-import time
 import warnings
 from collections.abc import Iterator
 from typing import Any
@@ -24,7 +23,7 @@ import shapely  # type: ignore[import-not-found,import-untyped,unused-ignore]
 from _kinder import Episode, State
 from _kinder_hook import HookGame
 from _kinder_stick import StickGame
-from _tee import PIXEL, Board, Floats, Goal, Way, choose, pushes
+from _tee import PIXEL, Board, Floats, Goal, Way, play, pushes
 
 import pushplan
 
@@ -146,26 +145,20 @@ class TeeGame(Episode):
         return np.array([thing["x"] * UNIT, thing["y"] * UNIT, thing["theta"]])
 
     @property
+    def pose(self) -> Floats:
+        return self.pose_of("tblock")
+
+    @property
     def agent(self) -> complex:
         robot = self.state["robot"]
         return complex(robot["x"], robot["y"]) * UNIT
 
     def play(self) -> None:
-        while not self.over:
-            began = time.process_time()
-            pose = self.pose_of("tblock")
-            push = choose(self.goal, self.agent, pose)
-            way = Way(self.board, self.agent, pose).to(push.start) if push else []
-            self.seconds += time.process_time() - began
-            if push is None:
-                break
-            self.pushes += 1
-            self.follow(way)
-            self.push(push.end)
+        play(self)
 
     def follow(self, corners: list[complex]) -> None:
         """Moves the finger along these corners without touching the T."""
-        tee = self.board.at(self.pose_of("tblock"))
+        tee = self.board.at(self.pose)
         for corner in corners:
             while not self.over and abs(corner - self.agent) > 0.2:
                 least = min(self.board.finger + 0.5, self.board.gap(self.agent, tee) - 0.1)
@@ -204,7 +197,7 @@ def recorded(seed: int) -> Iterator[pushplan.Recording]:
     """Yields recordings of random pushes in one episode."""
     game, draws = TeeGame(seed, 10**6, 0.7, 0.5), np.random.default_rng(seed)
     for _ in range(EACH):
-        pose = game.pose_of("tblock")
+        pose = game.pose
         tried = pushes(game.board, pose[None], 64, np.array([-0.5, 0.0, 0.5]), 40.0)
         ways = Way(game.board, game.agent, pose).lengths(tried.start)
         able = np.flatnonzero(np.isfinite(ways) & (tried.gone[:, -1] > 39.0))
@@ -234,7 +227,7 @@ def recorded(seed: int) -> Iterator[pushplan.Recording]:
 def frame_of(game: TeeGame, beyond: complex) -> dict[str, Any]:
     """Returns a frame with the finger this far beyond its position."""
     at = (game.agent + beyond) * PIXEL
-    [bar] = game.board.bar_of(game.pose_of("tblock"))
+    [bar] = game.board.bar_of(game.pose)
     tee = game.state["tblock"]
     away = 0.5j * (tee["width"] + tee["length_vertical"]) * UNIT * PIXEL * np.exp(1j * bar[2])
     yaw = float(np.degrees(bar[2]))

@@ -10,14 +10,13 @@ pairs of pushes. It then executes the push with the smallest expected number of 
 """
 
 import argparse
-import time
 
 import gym_pusht  # type: ignore[import-not-found,import-untyped,unused-ignore]  # noqa: F401
 import gymnasium
 import numpy as np
 import numpy.typing as npt
 import shapely  # type: ignore[import-not-found,import-untyped,unused-ignore]
-from _tee import Board, Floats, Goal, Points, Way, choose, placed
+from _tee import Board, Floats, Goal, Points, placed, play
 
 import pushplan
 
@@ -107,16 +106,7 @@ class Game:
         return self.done or self.steps >= self.most
 
     def play(self) -> None:
-        while not self.over:
-            began = time.process_time()
-            push = choose(self.goal, self.agent, self.pose)
-            way = Way(BOARD, self.agent, self.pose).to(push.start) if push else []
-            self.seconds += time.process_time() - began
-            if push is None:
-                break
-            self.pushes += 1
-            self.follow(way)
-            self.push(push.end)
+        play(self)
 
     def follow(self, corners: list[complex]) -> None:
         """Moves the agent along these corners, as fast as possible without touching the T."""

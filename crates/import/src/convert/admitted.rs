@@ -86,8 +86,9 @@ pub(super) fn stated(
     if wanted.strict || kept == value {
         return value;
     }
+    let limit = if value < low { "at least" } else { "at most" };
     let note = format!(
-        "`{}` has {value} {unit} in the file; a task states {low} or more, and {kept} is used",
+        "`{}` has {value} {unit} in the file; a task has {limit} {kept}, which is used",
         owner.name
     );
     ledger.note_as(Effect::Strong, owner.place, note);

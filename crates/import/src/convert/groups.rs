@@ -84,7 +84,7 @@ fn drawn(model: &mut Model, wanted: &Wanted, ledger: &mut Ledger) {
     solids.for_each(|solid| solid.touches = true);
 }
 
-/// Returns `true` if the mass of an imported body follows from a density that nobody gave.
+/// Returns `true` if the mass of an imported body follows from an assumed density.
 pub(super) fn massless(model: &Model, roots: &[usize]) -> bool {
     let group = |root: &usize| model.below(*root);
     let nothing = |body: &Body| match &body.inertial {
@@ -121,7 +121,7 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
     let mut found = Vec::new();
     let (mut asked_for, mut others) = (Vec::new(), Vec::new());
     let can = |motion: &Motion| *motion == Motion::Free || motion.is_planar() || may_mount(motion);
-    // Beside objects, what moves otherwise is left out, such as a robot.
+    // Other movable bodies beside objects are left out, such as a robot.
     let passes = !wanted.strict
         && wanted.bodies.is_empty()
         && model.bodies.iter().any(|body| {

@@ -1,7 +1,7 @@
 //! Drawers and doors that hang above the table in the file.
 //!
-//! A task holds all objects at the height of the table, so they are lowered onto it. What they pass
-//! above in the file would then be in their way and is left out.
+//! A task holds all objects at the height of the table, so they are lowered onto it. Solids that
+//! they pass above in the file would then block them and are left out.
 
 use crate::diagnostic::{Effect, Ledger};
 use crate::model::{Model, Motion};

@@ -1,4 +1,5 @@
 //! Access to files that a file names: only in its folder or below, unless a root folder is given.
+//! Meshes may also lie up to three folders above, unless nothing may be assumed.
 
 use std::io::{ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
