@@ -10,7 +10,8 @@ use pushplan_report::DocumentKind;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-use crate::program::{interrupt, run, stderr};
+use crate::interrupted::interrupt;
+use crate::program::{run, stderr};
 use crate::{PROGRAM, ROOT};
 
 /// Returns the document of a command line, which must end with one of these exit codes.

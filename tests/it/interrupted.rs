@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-use crate::program::{interrupt, succeed};
+use crate::program::succeed;
 
 /// Runs a resumable command once without and once with an interruption, and compares the files.
 pub fn goes_on_after_an_interruption(command: &str, options: &str) {
@@ -57,4 +57,10 @@ pub fn interrupted(line: &str, until: impl Fn() -> bool) -> Output {
     // On a fast machine the command may finish before the signal arrives.
     assert!(matches!(output.status.code(), Some(130 | 0)), "{output:?}");
     output
+}
+
+/// Sends Ctrl-C to a process. The shell does it, because a bare Debian has no program `kill`.
+pub fn interrupt(id: &str) {
+    let sent = Command::new("sh").args(["-c", &format!("kill -INT {id}")]).status();
+    assert!(sent.is_ok_and(|status| status.success()), "no signal to {id}");
 }

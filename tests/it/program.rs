@@ -32,9 +32,3 @@ pub fn succeed(line: &str) -> Output {
 pub fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
-
-/// Sends Ctrl-C to a process. The shell does it, because a bare Debian has no program `kill`.
-pub fn interrupt(id: &str) {
-    let sent = Command::new("sh").args(["-c", &format!("kill -INT {id}")]).status();
-    assert!(sent.is_ok_and(|status| status.success()), "no signal to {id}");
-}
