@@ -41,8 +41,7 @@ impl Grid {
 
     /// Returns the position of a point, metres in the world.
     pub fn position(&self, place: usize) -> Vector {
-        let column = self.low[0] + (place % self.columns) as i32;
-        let row = self.low[1] + (place / self.columns) as i32;
+        let [column, row] = self.offset(place);
         self.origin + Vector::new(f64::from(column), f64::from(row)) * self.spacing
     }
 
@@ -58,11 +57,48 @@ impl Grid {
 
     /// Returns the point at this offset in columns and rows, if it is inside the grid.
     pub fn next(&self, place: usize, [x, y]: [i32; 2]) -> Option<usize> {
-        let column = (place % self.columns) as i32 + x;
-        let row = (place / self.columns) as i32 + y;
+        let [column, row] = self.offset(place);
+        self.at([column + x, row + y])
+    }
+
+    /// Returns the numbers of columns and rows.
+    pub fn sides(&self) -> [usize; 2] {
+        [self.columns, self.rows]
+    }
+
+    /// Returns the columns and rows of a point, counted from the origin.
+    pub fn offset(&self, place: usize) -> [i32; 2] {
+        let (column, row) = (place % self.columns, place / self.columns);
+        [self.low[0] + column as i32, self.low[1] + row as i32]
+    }
+
+    /// Returns the point at this offset from the origin, if it is inside the grid.
+    pub fn at(&self, [x, y]: [i32; 2]) -> Option<usize> {
+        let (column, row) = (x - self.low[0], y - self.low[1]);
         let inside =
             (0..self.columns as i32).contains(&column) && (0..self.rows as i32).contains(&row);
         inside.then(|| row as usize * self.columns + column as usize)
+    }
+
+    /// Returns a value at a position by bilinear interpolation between the values at all points;
+    /// `None` outside the grid.
+    pub fn interpolated(&self, values: &[f32], position: Vector) -> Option<f64> {
+        let local = (position - self.origin) / self.spacing;
+        let local = [local.x - f64::from(self.low[0]), local.y - f64::from(self.low[1])];
+        let (column, row) = (local[0].floor(), local[1].floor());
+        let inside = column >= 0.0
+            && row >= 0.0
+            && column + 1.0 < self.columns as f64
+            && row + 1.0 < self.rows as f64;
+        if !inside {
+            return None;
+        }
+        let (x, y) = (local[0] - column, local[1] - row);
+        let first = row as usize * self.columns + column as usize;
+        let at = |place: usize| f64::from(values[place]);
+        let lower = at(first) * (1.0 - x) + at(first + 1) * x;
+        let upper = at(first + self.columns) * (1.0 - x) + at(first + self.columns + 1) * x;
+        Some(lower * (1.0 - y) + upper * y)
     }
 
     /// Returns the points in the box between two corners, row by row.

@@ -13,7 +13,7 @@ use super::support::OBJECT_SUPPORT;
 /// Key of an object's additional solids.
 pub(super) const PARTS: Key = Key::optional(
     "parts",
-    Value::List { of: &PART, items: "parts", min: 0, max: 16 },
+    Value::List { of: &PART, items: "parts", min: 0, max: 64 },
     "Further solids that are rigidly attached, like the handle of a mug; by default none.",
 );
 

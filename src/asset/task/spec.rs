@@ -289,7 +289,7 @@ const TOOL_CHANGES: Value = Value::Count(Range {
 const MAX_COUNT: Value = Value::Count(Range {
     what: "a number of pushes",
     low: 1.0,
-    high: 16.0,
+    high: 64.0,
     advice: "three pushes move an object around a corner",
 });
 

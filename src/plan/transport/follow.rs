@@ -1,8 +1,10 @@
 //! Real pushes along the legs of a transport. For each leg, the search and refinement start from
 //! the state left by the previous pushes.
 
+use std::collections::VecDeque;
+
 use crate::effect::EffectModel;
-use crate::geometry::Footprint;
+use crate::geometry::{Footprint, Vector};
 use crate::plan::uncertainty::{Uncertainty, room};
 use crate::plan::{
     Candidate, CandidatePush, Evaluation, RefineSettings, RefineStatistics, Rollouts, Search,
@@ -11,11 +13,12 @@ use crate::plan::{
 use crate::progress::Progress;
 use crate::{
     outcome::Record,
-    scene::{Situation, State},
+    scene::{Scene, Situation, State},
     task::{Directions, Goal, PushRules, Task},
 };
 
-use super::Leg;
+use super::reach::{Groups, Leg, Transport};
+use super::sequence::Failed;
 
 /// Tolerance of an object's position at the end of a leg, metres. An object further off would not
 /// pass the next gap.
@@ -27,7 +30,16 @@ const TURNED: f64 = 0.1;
 /// Score above which a leg is lost, so that the next legs do not start.
 const LOST: f64 = 1.5;
 
-/// Motion of other objects that counts as one unit of the score, metres.
+/// Distance of an object from its planned position at which other legs are searched, metres.
+const STRAYS: f64 = 0.008;
+
+/// Maximum number of searches for other legs.
+const RETRIES: usize = 16;
+
+/// Score at which a plan counts as complete, because refinement can correct the rest.
+const ARRIVED: f64 = 1.5;
+
+/// Motion of other objects other than planned that counts as one unit of the score, metres.
 const BESIDE: f64 = 0.02;
 
 /// Length of a push beyond its leg, metres, because the tool starts farther away.
@@ -44,70 +56,215 @@ pub struct FollowSettings {
     pub refine: RefineSettings,
 }
 
-/// Legs that pushes could follow.
+/// Pushes along legs.
 #[derive(Clone, Debug)]
 pub struct Followed {
-    /// Pushes along the legs.
+    /// Pushes in order.
     pub candidate: Candidate,
     /// Number of legs followed to their ends.
     pub legs: usize,
+    /// Whether the last leg led to all goals.
+    pub complete: bool,
     /// State at the end of these legs.
     pub state: State,
 }
 
-/// Finds pushes along `legs` with one tool and grip yaw; `used` counts the rollouts of the model.
-pub fn follow(
-    workspace: &Workspace,
-    situation: &Situation,
-    (tool, grip_yaw): (usize, f64),
-    legs: &[Leg],
-    (model, settings): (&dyn EffectModel, FollowSettings),
-    used: &mut usize,
-    progress: &dyn Progress,
-) -> Followed {
-    let mut followed =
-        Followed { candidate: Candidate::default(), legs: 0, state: situation.start.clone() };
-    let spread = Uncertainty::around(situation);
-    let mut others = spread.starts().to_vec();
-    for (k, leg) in legs.iter().enumerate() {
-        let now = Situation { start: followed.state.clone(), ..situation.clone() };
-        let task = towards(workspace.task, leg, situation, grip_yaw);
-        let own = Workspace { task: &task, tools: &workspace.tools[tool..=tool] };
-        let error = settings.search.model_error;
-        let first_room = match k {
-            0 => 0.0,
-            _ => room(&situation.scene, leg.object, &now.start, &others, error),
-        };
-        let Some(best) = push(&own, &now, first_room, (model, settings), used, progress) else {
-            break;
-        };
-        if best.score > LOST {
-            break;
+/// Transport with one tool, followed in rollouts.
+pub struct Follow<'a> {
+    /// Task and tools.
+    pub workspace: Workspace<'a>,
+    /// Start.
+    pub situation: &'a Situation,
+    /// Index of the tool and its grip yaws, radians.
+    pub tool: (usize, &'a [f64]),
+    /// Maximum length of a push, metres.
+    pub longest: f64,
+    /// Maximum number of pushes.
+    pub most: usize,
+    /// Effect model.
+    pub model: &'a dyn EffectModel,
+    /// Budgets of the pushes.
+    pub settings: FollowSettings,
+}
+
+/// State between two legs.
+#[derive(Clone)]
+struct Station {
+    state: State,
+    /// The same state for other plausible physics.
+    others: Vec<State>,
+    /// Number of pushes so far.
+    pushes: usize,
+}
+
+impl Follow<'_> {
+    /// Finds pushes along `legs`, at most the first `ahead` of them. Where a leg fails, or objects
+    /// end elsewhere than planned, other legs are searched from there; `used` counts the rollouts.
+    pub fn run(
+        &self,
+        legs: &[Leg],
+        ahead: usize,
+        used: &mut usize,
+        progress: &dyn Progress,
+    ) -> Followed {
+        let spread = Uncertainty::around(self.situation);
+        let start = self.situation.start.clone();
+        let mut way =
+            vec![(Station { state: start, others: spread.starts().to_vec(), pushes: 0 }, None)];
+        let mut candidate = Candidate::default();
+        let mut open: VecDeque<Leg> = legs.to_vec().into();
+        let (mut failed, mut retries) = (Vec::new(), 0);
+        // Number of stations when the open legs were planned.
+        let mut planned = way.len();
+        while let Some(leg) = open.pop_front() {
+            if way.len() > ahead || progress.cancelled() {
+                break;
+            }
+            let (station, _) = way.last().expect("the way begins at the start");
+            candidate.pushes.truncate(station.pushes);
+            match self.leg(&leg, (station, way.len() == 1), &spread, used, progress) {
+                Ok((pushes, next)) => {
+                    candidate.pushes.extend(pushes);
+                    let strays = self.strays(&leg, &station.state, &next.state);
+                    way.push((next, Some(leg)));
+                    if strays {
+                        open.clear();
+                    }
+                }
+                Err(lost) => {
+                    open.clear();
+                    // After other pushes, the legs no longer begin where objects are.
+                    if planned == way.len() {
+                        failed.push(failure(&leg, lost));
+                    }
+                }
+            }
+            // Other legs from here, or from the station before.
+            while open.is_empty() && !self.arrived(&way) && retries < RETRIES && way.len() <= ahead
+            {
+                retries += 1;
+                let (station, leg) = way.last().expect("the way begins at the start");
+                if let Some(legs) = self.replanned(station, &failed) {
+                    (open, planned) = (legs.into(), way.len());
+                } else if let Some(leg) = leg {
+                    failed.push(failure(leg, Lost::Off));
+                    way.pop();
+                } else {
+                    break;
+                }
+            }
         }
-        let mut rollouts = Rollouts::new(model, now);
+        let (station, _) = way.last().expect("the way begins at the start");
+        candidate.pushes.truncate(station.pushes);
+        let (legs, complete) = (way.len() - 1, self.arrived(&way));
+        Followed { candidate, legs, complete, state: station.state.clone() }
+    }
+
+    /// Returns `true` if all goals are nearly met at the end.
+    fn arrived(&self, way: &[(Station, Option<Leg>)]) -> bool {
+        let (station, _) = way.last().expect("the way begins at the start");
+        way.len() > 1 && self.workspace.task.score(&station.state) <= ARRIVED
+    }
+
+    /// Returns other legs from a station.
+    fn replanned(&self, station: &Station, failed: &[Failed]) -> Option<Vec<Leg>> {
+        let now = Situation { start: station.state.clone(), ..self.situation.clone() };
+        let groups = Groups::of(&self.workspace, &now)?;
+        let transport = Transport::new(self.workspace, &now, &groups, self.tool, self.longest)?;
+        let most = self.most.checked_sub(station.pushes).filter(|most| *most > 0)?;
+        let legs = transport.legs_without(failed, most, 1).pop()?;
+        (!legs.is_empty()).then_some(legs)
+    }
+
+    /// Returns `true` if an object ends elsewhere than planned.
+    fn strays(&self, leg: &Leg, before: &State, after: &State) -> bool {
+        expected(leg, &self.situation.scene, before)
+            .any(|(k, there)| (after.poses[k].position - there).norm() > STRAYS)
+    }
+
+    /// Returns the pushes along a leg and the station at its end.
+    fn leg(
+        &self,
+        leg: &Leg,
+        (station, first): (&Station, bool),
+        spread: &Uncertainty,
+        used: &mut usize,
+        progress: &dyn Progress,
+    ) -> Result<(Vec<CandidatePush>, Station), Lost> {
+        let now = Situation { start: station.state.clone(), ..self.situation.clone() };
+        let (tool, grip_yaw) = leg.pair;
+        let task = towards(self.workspace.task, leg, &now, grip_yaw);
+        let own = Workspace { task: &task, tools: &self.workspace.tools[tool..=tool] };
+        let error = self.settings.search.model_error;
+        let first_room = match first {
+            true => 0.0,
+            false => room(&now.scene, leg.object, &now.start, &station.others, error),
+        };
+        let model = (self.model, self.settings);
+        let best =
+            push(&own, &now, (leg, first_room), model, used, progress).ok_or(Lost::Infeasible)?;
+        if best.score > LOST {
+            return Err(Lost::Off);
+        }
+        let mut rollouts = Rollouts::new(self.model, now);
+        let motions = best.motions(&own);
         let jobs: Vec<_> =
-            best.motions(&own).iter().flat_map(|motion| spread.jobs(motion, &others)).collect();
+            motions.iter().flat_map(|motion| spread.jobs(motion, &station.others)).collect();
         let ends = rollouts.run(&jobs, Record::Outcome);
         *used += rollouts.used();
-        others = ends.iter().map(|end| end.outcome().clone()).collect();
         // The search had a single tool, at index 0.
-        let pushes = best.candidate.pushes.iter().map(|push| CandidatePush { tool, ..*push });
-        followed.candidate.pushes.extend(pushes);
-        followed.state = best.outcome;
-        followed.legs += 1;
+        let pushes: Vec<CandidatePush> =
+            best.candidate.pushes.iter().map(|push| CandidatePush { tool, ..*push }).collect();
+        let station = Station {
+            others: ends.iter().map(|end| end.outcome().clone()).collect(),
+            pushes: station.pushes + pushes.len(),
+            state: best.outcome,
+        };
+        Ok((pushes, station))
     }
-    followed
+}
+
+/// Returns the objects that are not parts of another one, with their planned positions after a leg.
+fn expected<'a>(
+    leg: &'a Leg,
+    scene: &'a Scene,
+    before: &'a State,
+) -> impl Iterator<Item = (usize, Vector)> + 'a {
+    scene.things().map(|(k, _)| {
+        let carried = leg.carried.iter().find(|(carried, _)| *carried == k);
+        let there = match (k == leg.object, carried) {
+            (true, _) => leg.to,
+            (_, Some((_, there))) => *there,
+            _ => before.poses[k].position,
+        };
+        (k, there)
+    })
+}
+
+/// Reason for which a leg is lost.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Lost {
+    /// No push is feasible.
+    Infeasible,
+    /// All pushes end elsewhere.
+    Off,
+}
+
+fn failure(leg: &Leg, lost: Lost) -> Failed {
+    let step = [leg.direction.cos().round() as i32, leg.direction.sin().round() as i32];
+    let length = (lost == Lost::Off).then(|| (leg.to - leg.from).norm());
+    Failed { object: leg.object, step, from: leg.from, length }
 }
 
 /// Returns the task of carrying one object to the end of a leg.
-fn towards(task: &Task, leg: &Leg, situation: &Situation, grip_yaw: f64) -> Task {
+fn towards(task: &Task, leg: &Leg, now: &Situation, grip_yaw: f64) -> Task {
     let object = &task.scene.objects[leg.object];
     let own = task.goals.iter().find(|goal| leg.last && goal.object == leg.object);
     let tolerance = own.map_or(NEAR, |goal| goal.tolerance().min(NEAR));
     let goal = Goal::new(leg.object, [leg.to.x, leg.to.y], tolerance);
     let turns = !matches!(object.shape.footprint(), Footprint::Disc { .. });
     let goal = match turns {
-        true => goal.facing(situation.start.poses[leg.object].heading, TURNED),
+        true => goal.facing(now.start.poses[leg.object].heading, TURNED),
         false => goal,
     };
     let pushes = PushRules {
@@ -124,7 +281,7 @@ fn towards(task: &Task, leg: &Leg, situation: &Situation, grip_yaw: f64) -> Task
 fn push(
     workspace: &Workspace,
     now: &Situation,
-    first_room: f64,
+    (leg, first_room): (&Leg, f64),
     (model, settings): (&dyn EffectModel, FollowSettings),
     used: &mut usize,
     progress: &dyn Progress,
@@ -146,11 +303,9 @@ fn push(
         refine(workspace, &mut rollouts, &candidates, settings.refine, &mut statistics, progress);
     *used += rollouts.used();
     let moved = |one: &Evaluation| {
-        let goal = workspace.task.goals[0].object;
-        let others = now.scene.things().map(|(k, _)| k).filter(|k| *k != goal);
-        let ways =
-            others.map(|k| (one.outcome.poses[k].position - now.start.poses[k].position).norm());
-        ways.sum::<f64>() / BESIDE
+        let others = expected(leg, &now.scene, &now.start).filter(|(k, _)| *k != leg.object);
+        others.map(|(k, there)| (one.outcome.poses[k].position - there).norm()).sum::<f64>()
+            / BESIDE
     };
     let sound = refined.into_iter().map(|one| one.best).filter(Evaluation::is_sound);
     sound.min_by(|a, b| (a.score + moved(a)).total_cmp(&(b.score + moved(b))))

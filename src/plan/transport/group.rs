@@ -6,8 +6,9 @@ use crate::{
     task::{Demand, End, Goal},
 };
 
+use super::collision::Shift;
 use super::lattice::{Extent, Solid};
-use crate::plan::workspace::{HAND_CLEARANCE, OBSTACLE_CLEARANCE};
+use super::room::tool_solids;
 use crate::plan::{CandidatePush, SET_DOWN_CLEARANCE, Start, Workspace};
 
 /// Clearance between a carried object and fixed bodies, metres: the error of an object after two
@@ -39,27 +40,60 @@ const ROOM: f64 = 0.005;
 /// A push farther out rotates the object.
 const BESIDE: f64 = 0.25;
 
+/// Share of a goal's tolerance within which a place counts as the goal.
+const AT_GOAL: f64 = 0.5;
+
 /// Group of solids that one push carries along.
 pub(super) struct Group {
     pub thing: usize,
     pub solids: Vec<Solid>,
+    /// Lowest and highest coordinates of the solids along both axes, relative to the position.
+    pub widths: [[f64; 2]; 2],
+    /// Centre of mass relative to the position.
+    pub centre: Vector,
     pub lattice: Grid,
-    /// Goal position and the nearest place of the grid.
-    pub goal: Option<(Vector, usize)>,
+    /// Goal position and its tolerance, metres.
+    pub goal: Option<(Vector, f64)>,
+    /// Displacement nearest to the goal.
+    pub goal_shift: Option<Shift>,
     /// Gap to fixed bodies for every place, at most [`ROOMY`]; negative if the group cannot be
     /// there.
     pub clear: Vec<f32>,
 }
 
+impl Group {
+    /// Returns the place of a displacement, if it is inside the grid.
+    pub fn place(&self, at: Shift) -> Option<usize> {
+        self.lattice.at(at.map(i32::from))
+    }
+
+    /// Returns the position at a displacement, metres.
+    pub fn position(&self, at: Shift) -> Vector {
+        let offset = Vector::new(f64::from(at[0]), f64::from(at[1]));
+        self.lattice.origin + offset * self.lattice.spacing
+    }
+
+    /// Returns `true` if the group can be at a displacement.
+    pub fn is_clear(&self, at: Shift) -> bool {
+        self.place(at).is_some_and(|place| self.clear[place] >= 0.0)
+    }
+
+    /// Returns `true` if a displacement is at the goal, or if there is no goal.
+    pub fn is_at_goal(&self, at: Shift) -> bool {
+        let Some((goal, tolerance)) = self.goal else { return true };
+        self.goal_shift == Some(at) || (self.position(at) - goal).norm() <= AT_GOAL * tolerance
+    }
+}
+
 /// Position of a tool behind a group.
 pub(super) struct Hold {
+    /// Index of the grip.
+    pub grip: usize,
     /// Direction of the push, radians from world +x.
     pub direction: f64,
     pub step: [i32; 2],
-    /// Solids of the tool and hand that move along.
-    pub solids: Vec<Solid>,
-    /// Whether the tool can be behind the group, for every place of the group.
-    pub free: Vec<bool>,
+    /// Position of the end effector relative to the group, metres.
+    pub effector: Vector,
 }
 
 /// Returns all groups that can be carried from `situation`; `None` if a goal requires more than a
@@ -111,16 +145,26 @@ pub(super) fn groups(workspace: &Workspace, situation: &Situation) -> Option<Vec
     let extent = Extent { low, high };
     let spacing = extent.spacing();
     let group = |&thing: &usize| {
-        let at = state.poses[thing].position;
+        let at: Vector = state.poses[thing].position;
         let solids = solids_of(scene, state, thing);
         let lattice = extent.grid(at, spacing);
         let own = goals.iter().find(|goal| goal.object == thing);
         let goal = own.map(|goal| {
             let at = if goal.reached(state) { at } else { goal.place(state) };
-            (at, lattice.nearest(at))
+            (at, goal.tolerance())
         });
+        let shift = |(goal, _)| lattice.offset(lattice.nearest(goal)).map(|v| v as i16);
         let clear = clear(scene, (state, &loose), (thing, &solids), &lattice);
-        Group { thing, solids, lattice, goal, clear }
+        let width = |axis: Vector| {
+            let far = |one: &Solid, axis: Vector| {
+                one.pose.position.dot(&axis) + one.footprint.extent(one.pose.local_vector(axis))
+            };
+            let most = |axis| solids.iter().map(|one| far(one, axis)).fold(f64::MIN, f64::max);
+            [-most(-axis), most(axis)]
+        };
+        let widths = [width(Vector::x()), width(Vector::y())];
+        let centre = scene.centre(thing, state) - at;
+        Group { thing, widths, centre, goal, goal_shift: goal.map(shift), clear, solids, lattice }
     };
     Some(loose.iter().map(group).collect())
 }
@@ -182,23 +226,28 @@ fn clear(
     clear
 }
 
-/// Returns the holds of a tool with this grip yaw behind a group, for every direction.
+/// Returns the columns and rows of a step along a heading (radians), and its direction; `None` if no
+/// neighbour is there.
+pub(super) fn step_of(heading: f64) -> Option<([i32; 2], Vector)> {
+    let ahead = Vector::new(heading.cos(), heading.sin());
+    let step = [ahead.x.round() as i32, ahead.y.round() as i32];
+    let off = ahead - Vector::new(f64::from(step[0]), f64::from(step[1]));
+    (off.norm() <= SLACK).then_some((step, ahead))
+}
+
+/// Returns the holds of a tool with one grip yaw behind a group, for every direction.
 pub(super) fn holds(
     workspace: &Workspace,
-    pair: (usize, f64),
+    (grip, pair): (usize, (usize, f64)),
     situation: &Situation,
-    (group, groups): (&Group, &[Group]),
+    group: &Group,
 ) -> Vec<Hold> {
     let (task, scene, state) = (workspace.task, &*situation.scene, &situation.start);
     let centre = scene.centre(group.thing, state);
     let at = state.poses[group.thing].position;
     let mut found = Vec::new();
     for direction in task.pushes.directions.headings() {
-        let ahead = Vector::new(direction.cos(), direction.sin());
-        let step = [ahead.x.round() as i32, ahead.y.round() as i32];
-        if (ahead - Vector::new(f64::from(step[0]), f64::from(step[1]))).norm() > SLACK {
-            continue;
-        }
+        let Some((step, ahead)) = step_of(direction) else { continue };
         let left = perpendicular(ahead);
         let mut ways: Vec<(f64, Vector)> = Vec::new();
         for object in [group.thing].into_iter().chain(scene.parts_of(group.thing)) {
@@ -232,72 +281,16 @@ pub(super) fn holds(
                 continue;
             }
             taken.push(effector);
-            let solids = tool_solids(workspace, pair, effector);
-            let own = |solid: &Solid| {
+            let own = |(solid, _): &(Solid, Mover)| {
                 group.solids.iter().all(|other| {
                     let still = (&other.footprint, &other.pose);
-                    !solid.meets(other)
-                        || solid.gap(Vector::zeros(), still, ROOMY) >= SET_DOWN_CLEARANCE
+                    !solid.meets(other) || solid.gap(effector, still, ROOMY) >= SET_DOWN_CLEARANCE
                 })
             };
-            if solids.iter().all(own) {
-                let free = free(workspace, situation, (group, groups), (effector, pair.1), &solids);
-                found.push(Hold { direction, step, solids, free });
+            if tool_solids(workspace, pair).all(|one| own(&one)) {
+                found.push(Hold { grip, direction, step, effector });
             }
         }
     }
     found
-}
-
-/// Returns the solids of the tool and of the hand at the height of objects, relative to the pushed
-/// object.
-fn tool_solids(workspace: &Workspace, (tool, yaw): (usize, f64), effector: Vector) -> Vec<Solid> {
-    let (task, tool) = (workspace.task, &*workspace.tools[tool]);
-    let frame = tool.pose(Pose { position: effector, heading: yaw });
-    let lift = task.pushes.lift;
-    let parts = tool.parts().iter().map(|part| Solid {
-        footprint: part.footprint(),
-        pose: frame * part.pose,
-        span: [lift, lift + part.shape.height()],
-        apart: OBSTACLE_CLEARANCE,
-    });
-    let carried = task.robot.carried(tool, lift).into_iter().flatten().map(|one| Solid {
-        footprint: one.footprint,
-        pose: frame * one.pose,
-        span: one.span,
-        apart: HAND_CLEARANCE,
-    });
-    parts.chain(carried).collect()
-}
-
-/// Returns whether the tool can be behind the group, for every place of the group.
-fn free(
-    workspace: &Workspace,
-    situation: &Situation,
-    (group, groups): (&Group, &[Group]),
-    (effector, yaw): (Vector, f64),
-    solids: &[Solid],
-) -> Vec<bool> {
-    let (task, scene, state) = (workspace.task, &*situation.scene, &situation.start);
-    let lattice = &group.lattice;
-    let stands = |place| task.is_reachable(lattice.position(place) + effector, yaw);
-    let mut free: Vec<bool> =
-        (0..lattice.count()).map(|place| group.clear[place] >= 0.0 && stands(place)).collect();
-    let parts = workspace.task.pushes.lift;
-    for solid in solids {
-        let mover = if solid.span[0] <= parts { Mover::Tool } else { Mover::Hand };
-        let mut keep = |footprint: &Footprint, pose: &Pose| {
-            solid.near(lattice, (footprint, pose), solid.apart, |place, _| free[place] = false);
-        };
-        for fixed in scene.fixed(mover, solid.span) {
-            keep(&fixed.footprint, &fixed.pose);
-        }
-        for (k, object) in scene.objects.iter().enumerate() {
-            let carried = groups.iter().any(|group| group.thing == scene.thing(k));
-            if !carried && object.meets(solid.span) {
-                keep(&object.shape.footprint(), &state.poses[k]);
-            }
-        }
-    }
-    free
 }

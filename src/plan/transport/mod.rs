@@ -1,18 +1,23 @@
 //! Transport of objects in straight pushes without rotation: a simplified model that yields
 //! skeletons for plans of many pushes.
 //!
-//! [`Transport`] finds legs of one push each on a grid of places. Every goal's object moves around
-//! fixed bodies. Obstructing objects are first cleared, or wait until another object has passed.
-//! This is navigation among movable obstacles (Stilman and Kuffner 2005, "Navigation among movable
-//! obstacles: real-time reasoning in complex environments"). No rollouts are needed; [`follow`]
-//! then finds real pushes for the legs, one after another.
+//! Groups of solids translate on a grid of places, each pushed by a tool behind it; a pushed group
+//! may carry others along. [`Transport`] searches sequences of such pushes: what to push next,
+//! where to, and what to clear or park first. This is navigation and rearrangement among movable
+//! obstacles (Stilman and Kuffner 2005, "Navigation among movable obstacles: real-time reasoning in
+//! complex environments"). No rollouts are needed. [`Follow`] then finds real pushes for the legs,
+//! one after another, and searches again from where they lead elsewhere.
 
+mod collision;
+mod distance;
 mod follow;
 mod group;
+mod held;
 mod lattice;
-mod path;
+mod moves;
 mod reach;
-mod schedule;
+mod room;
+mod sequence;
 
-pub use follow::{FollowSettings, Followed, follow};
+pub use follow::{Follow, FollowSettings, Followed};
 pub use reach::{Groups, Leg, Transport};

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use crate::plan::{
-    FollowSettings, Followed, Groups, Leg, Search, SearchResult, Transport as Carrier, evaluate,
-    follow,
+    Follow, FollowSettings, Followed, Groups, Leg, Search, SearchResult, Transport as Carrier,
+    evaluate,
 };
 use crate::progress::Instant;
 use crate::scene::Tool;
@@ -19,10 +19,14 @@ use crate::task::Plan;
 /// Number of pushes of the usual search at which the search for legs begins.
 const FIRST: usize = 3;
 
-/// Number of grips for which legs are searched, fewest pushes first.
-const GRIPS: usize = 3;
+/// Number of objects from which the search for legs begins after a single push. It is then cheaper
+/// than the usual search for two and more pushes, and follows legs that need more than [`FIRST`].
+const CROWD: usize = 4;
 
-/// Number of plans of legs for each grip.
+/// Number of tools for which legs are searched, fewest pushes first.
+const TOOLS: usize = 3;
+
+/// Number of plans of legs for each tool.
 const PLANS: usize = 2;
 
 /// Number of refined candidates for one leg.
@@ -37,8 +41,8 @@ const FAR: usize = 24;
 /// Number of first legs followed in this case.
 const AHEAD: usize = 2;
 
-/// Legs for a tool and grip yaw.
-type Legs = ((usize, f64), Vec<Leg>);
+/// Legs for the tool with this index.
+type Legs = (usize, Vec<Leg>);
 
 /// First pushes of a plan that leads to the goals.
 pub struct Approach {
@@ -54,6 +58,10 @@ pub struct Approach {
 #[derive(Default)]
 pub(super) struct Transport {
     depth: usize,
+    /// Whether legs have been searched.
+    searched: bool,
+    /// Whether legs of few pushes are followed.
+    begun: bool,
     open: VecDeque<Legs>,
 }
 
@@ -64,29 +72,37 @@ impl<'a> Strategy<'a> for Transport {
 
     fn next(&mut self, board: &mut Blackboard<'a>) -> Result<Option<Batch>, SolveError> {
         let Some(usual) = &board.search else { return Ok(None) };
-        let depth = usual.depth();
+        let (depth, most) = (usual.depth(), board.query.task.pushes.max_count);
         if depth > self.depth {
             self.depth = depth;
-            let most = board.query.task.pushes.max_count;
             let last = depth == FIRST || (depth < FIRST && !usual.can_deepen());
-            if last && most >= 2 && board.wants_longer(FIRST) {
+            let crowded = depth == 1 && board.query.task.scene.things().count() >= CROWD;
+            let now = (last || crowded) && !self.searched;
+            self.searched |= now;
+            if now && most >= 2 && board.wants_longer(FIRST) {
                 let began = Instant::now();
                 self.open = legs(board, most, PLANS).into();
                 board.timing.search += began.elapsed().as_secs_f64();
             }
+            self.begun |= last;
         }
-        while let Some((pair, legs)) = self.open.pop_front() {
+        // The usual search may still find shorter plans.
+        if !self.begun && self.open.iter().any(|(_, legs)| legs.len() <= FIRST) {
+            return Ok(None);
+        }
+        while let Some((tool, legs)) = self.open.pop_front() {
             if !board.wants_longer(legs.len()) || board.query.progress.cancelled() {
                 self.open.clear();
                 break;
             }
             let began = Instant::now();
-            let followed = followed(board, pair, &legs);
+            let followed = followed(board, tool, &legs, (most, usize::MAX));
             board.timing.search += began.elapsed().as_secs_f64();
-            if let Some(followed) = followed.filter(|followed| followed.legs == legs.len()) {
+            if let Some(followed) = followed.filter(|followed| followed.complete) {
                 let score = board.query.task.score(&followed.state);
+                let pushes = followed.candidate.pushes.len();
                 let found = vec![SearchResult { candidate: followed.candidate, score }];
-                let candidates = Candidates { found, pushes: legs.len(), hardenable: false };
+                let candidates = Candidates { found, pushes, hardenable: false };
                 return Ok(Some(Batch::Pushes(candidates)));
             }
         }
@@ -103,46 +119,57 @@ pub(in crate::solve) fn approach(board: &mut Blackboard, least: usize) -> Option
         return None;
     }
     let workspace = board.query.workspace();
-    for (pair, legs) in ways {
-        let followed = followed(board, pair, &legs[..AHEAD.min(legs.len())])?;
+    for (tool, legs) in ways {
+        let followed = followed(board, tool, &legs, (FAR, AHEAD))?;
         let made = [followed.candidate];
         let mut made = evaluate(&workspace, &mut board.refiner.rollouts, &made).into_iter();
         if followed.legs > 0
             && let Some(Ok(made)) = made.next()
             && arm_fault(&board.query, &made).is_none()
         {
-            let tool = Arc::clone(&workspace.tools[pair.0]);
+            let tool = Arc::clone(&workspace.tools[tool]);
             return Some(Approach { plan: made.plan(&workspace), tool, pushes: legs.len() });
         }
     }
     None
 }
 
-/// Returns legs for the grips that need the fewest pushes, up to `count` plans of at most `most`
+/// Returns legs for the tools that need the fewest pushes, up to `count` plans of at most `most`
 /// legs each.
 fn legs(board: &Blackboard, most: usize, count: usize) -> Vec<Legs> {
     let (workspace, situation) = (board.query.workspace(), board.query.situation);
-    let Some(usual) = board.search.as_ref().filter(|_| workspace.is_placed()) else {
+    if board.search.is_none() || !workspace.is_placed() {
         return Vec::new();
-    };
+    }
     let Some(groups) = Groups::of(&workspace, situation) else { return Vec::new() };
     board.reporter.stage("search for legs");
-    let longest = LONGEST * board.query.task.pushes.length;
-    let carrier = |pair: &(usize, f64)| {
-        Some((*pair, Carrier::new(workspace, situation, &groups, *pair, longest)?))
+    let (yaws, longest) = (&board.query.task.pushes.grip_yaws, longest(board));
+    let carrier = |tool: usize| {
+        let pair = (tool, &yaws[..]);
+        Some((tool, Carrier::new(workspace, situation, &groups, pair, longest)?))
     };
-    let mut all: Vec<_> = usual.grips().iter().filter_map(carrier).collect();
+    let mut all: Vec<_> = (0..workspace.tools.len()).filter_map(carrier).collect();
     // The sort is stable, so that ties keep their order.
     all.sort_by(|a, b| a.1.least().total_cmp(&b.1.least()));
-    let best = all.iter().take(GRIPS);
+    let best = all.iter().take(TOOLS);
     let ways =
-        best.flat_map(|(pair, one)| one.legs(most, count).into_iter().map(|legs| (*pair, legs)));
+        best.flat_map(|(tool, one)| one.legs(most, count).into_iter().map(|legs| (*tool, legs)));
     // If the grid is too coarse to distinguish a goal from the start, no leg is needed.
     ways.filter(|(_, legs)| !legs.is_empty()).collect()
 }
 
-/// Finds pushes along legs and counts their rollouts.
-fn followed(board: &mut Blackboard, pair: (usize, f64), legs: &[Leg]) -> Option<Followed> {
+/// Returns the maximum length of a push of a leg, metres.
+fn longest(board: &Blackboard) -> f64 {
+    LONGEST * board.query.task.pushes.length
+}
+
+/// Finds at most `most` pushes along at most `ahead` legs and counts their rollouts.
+fn followed(
+    board: &mut Blackboard,
+    tool: usize,
+    legs: &[Leg],
+    (most, ahead): (usize, usize),
+) -> Option<Followed> {
     let query = board.query;
     let settings = FollowSettings {
         search: board.search.as_ref().map(Search::settings)?,
@@ -150,9 +177,16 @@ fn followed(board: &mut Blackboard, pair: (usize, f64), legs: &[Leg]) -> Option<
         refine: query.refine_settings(1),
     };
     let mut used = 0;
-    let (workspace, situation) = (query.workspace(), query.situation);
-    let model = (query.planner.model(), settings);
-    let followed = follow(&workspace, situation, pair, legs, model, &mut used, query.progress);
+    let follow = Follow {
+        workspace: query.workspace(),
+        situation: query.situation,
+        tool: (tool, &query.task.pushes.grip_yaws),
+        longest: longest(board),
+        most,
+        model: query.planner.model(),
+        settings,
+    };
+    let followed = follow.run(legs, ahead, &mut used, query.progress);
     board.refiner.rollouts.count(used);
     Some(followed)
 }
