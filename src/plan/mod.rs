@@ -28,6 +28,7 @@ mod score;
 mod scored;
 mod search;
 mod search_result;
+mod set_down;
 mod statistics;
 mod supports;
 mod swept_region;
@@ -41,7 +42,7 @@ pub use cost_to_go::CostToGo;
 pub use evaluate::{Evaluation, evaluate};
 pub use harden::{HardenSettings, harden};
 pub use infeasible::Infeasible;
-pub use placement::Placement;
+pub use placement::{Placement, STAND_OFF};
 pub use qp::{QpProblem, QpSolution, QpSolver, QpStatus};
 pub use refine::{REFINABLE, RefineSettings, refine};
 pub use refined::Refined;
@@ -56,6 +57,5 @@ pub use tie_break::{Cost, NEAR, in_order, preferred};
 pub use transport::{FollowSettings, Followed, Groups, Leg, Transport, follow};
 pub use uncertainty::Uncertainty;
 pub use workspace::{
-    HAND_CLEARANCE, MIN_LENGTH, Margins, OBSTACLE_CLEARANCE, SET_DOWN_CLEARANCE, STAND_OFF,
-    Workspace,
+    HAND_CLEARANCE, MIN_LENGTH, Margins, OBSTACLE_CLEARANCE, SET_DOWN_CLEARANCE, Workspace,
 };

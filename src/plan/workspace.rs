@@ -11,11 +11,7 @@ use crate::{
     task::{Push, PushForm, Task},
 };
 
-use super::{Infeasible, Placement};
-
-/// Travel of the contacting face before it meets the object, metres (by the definition of a
-/// placed push).
-pub const STAND_OFF: f64 = 0.005;
+use super::{Infeasible, Placement, STAND_OFF};
 
 /// Minimum distance between a descending tool and every object, metres. It is small compared with
 /// the stand-off, because a glancing face is closer to a round object than its travel.

@@ -1,6 +1,6 @@
 //! Pushes below overhanging parts of an object: set-down of the tool, its approach, and plans.
 //!
-//! All distances are closed forms for an object whose cross-section is a T.
+//! Distances are closed forms for an object whose cross-section is a T.
 
 use std::f64::consts::PI;
 use std::sync::Arc;

@@ -289,13 +289,7 @@ fn outline<'a>(source: &mut Source<'a>, collision: Node<'a, 'a>, files: &Files) 
     Some(match source.sound(foreign::geometry(collision))? {
         Geometry::Solid(Outline::Other(tag)) => Outline::Other(format!("a {tag}")),
         Geometry::Solid(outline) => outline,
-        Geometry::Mesh { file, scale } => {
-            let found = files.mesh("", &file);
-            if let Ok((path, true)) = &found {
-                source.elsewhere(collision, &file, path);
-            }
-            mesh(found.map(|(path, _)| path), scale)
-        }
+        Geometry::Mesh { file, scale } => mesh(source.mesh(collision, (files, ""), &file), scale),
     })
 }
 
