@@ -150,7 +150,7 @@ impl<'a> Meshes<'a> {
                 };
                 let Compiler { meshes, assets, .. } = &context.compiler;
                 let base = meshes.as_ref().unwrap_or(assets);
-                let found = source.mesh(mesh, (&self.files, base), &name);
+                let found = source.mesh(mesh, (self.files, base), &name);
                 match found.and_then(|path| load(&path)) {
                     Ok(raw) => raw,
                     Err(refused) => {
