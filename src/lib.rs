@@ -169,7 +169,7 @@ pub mod shapes {
 /// Parts of scenes: supports, surfaces, regions, joints, the robot's hand and its arm.
 pub mod scenes {
     pub use crate::scene::{
-        ArmFault, Carried, Fixed, Hand, JointPoint, JointTrajectory, LeverScene, Mover,
+        Annulus, ArmFault, Carried, Fixed, Hand, JointPoint, JointTrajectory, LeverScene, Mover,
         PairFriction, Piece, Plate, Quantity, Region, RigidGroups, Slab, Span, Support, Surface,
         TableTop, ToolError, Velocity, Weight, Whole, WorldJoint,
     };

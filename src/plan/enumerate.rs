@@ -206,7 +206,8 @@ fn extend(
     mut planned: CandidatePush,
 ) -> Result<Extension, Infeasible> {
     let depth = node.candidate.as_ref().map_or(0, |c| c.pushes.len());
-    let start = workspace.place(&node.state, &planned, node.end)?;
+    let placement = workspace.place(&node.state, &planned, node.end)?;
+    let start = placement.start;
     if workspace.is_placed() && topples(workspace, &planned) {
         return Err(Infeasible::Topples);
     }
@@ -218,7 +219,7 @@ fn extend(
         length: planned.length,
         speed: workspace.task.pushes.speed,
     };
-    let set_down = (workspace.is_placed() || depth == 0).then_some(planned.room);
+    let set_down = (workspace.is_placed() || depth == 0).then_some(placement);
     let pushed = (&node.state, planned.object);
     if let Some(reason) = workspace.margins(planned.grip(), pushed, &push, set_down).violation() {
         return Err(reason);
@@ -226,8 +227,9 @@ fn extend(
     if workspace.is_placed() && !reached.reach(planned.grip(), start, depth == 0) {
         return Err(Infeasible::NoWay);
     }
+    let carried = (push.length - placement.back).max(0.0);
     let promise = (0..=2)
-        .map(|k| field.carried(pushed, push.heading() * (push.length * k as f64 / 2.0)))
+        .map(|k| field.carried(pushed, push.heading() * (carried * k as f64 / 2.0)))
         .fold(f64::INFINITY, f64::min);
     Ok(Extension { node: index, planned, push, scored: None, fine: false, promise })
 }

@@ -147,14 +147,14 @@ fn add_push(workspace: &Workspace, result: &mut Result<Evaluation, Infeasible>, 
     let Some(planned) = evaluation.candidate.pushes.get(stage).copied() else { return };
     let previous = evaluation.pushes.last().map(Push::end);
     match workspace.place(&evaluation.outcome, &planned, previous) {
-        Ok(start) => {
+        Ok(placement) => {
             let push = Push {
-                start,
+                start: placement.start,
                 direction: planned.direction,
                 length: planned.length,
                 speed: workspace.task.pushes.speed,
             };
-            let set_down = (workspace.is_placed() || stage == 0).then_some(planned.room);
+            let set_down = (workspace.is_placed() || stage == 0).then_some(placement);
             let pushed = (&evaluation.outcome, planned.object);
             let margins = workspace.margins(planned.grip(), pushed, &push, set_down);
             evaluation.pushes.push(push);

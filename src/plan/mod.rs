@@ -18,6 +18,7 @@ pub mod lever;
 mod linear;
 mod node;
 mod parameters;
+mod placement;
 mod qp;
 mod reached;
 mod refine;
@@ -27,6 +28,7 @@ mod score;
 mod scored;
 mod search;
 mod search_result;
+mod set_down;
 mod statistics;
 mod supports;
 mod swept_region;
@@ -40,6 +42,7 @@ pub use cost_to_go::CostToGo;
 pub use evaluate::{Evaluation, evaluate};
 pub use harden::{HardenSettings, harden};
 pub use infeasible::Infeasible;
+pub use placement::{Placement, STAND_OFF};
 pub use qp::{QpProblem, QpSolution, QpSolver, QpStatus};
 pub use refine::{REFINABLE, RefineSettings, refine};
 pub use refined::Refined;
@@ -54,6 +57,5 @@ pub use tie_break::{Cost, NEAR, in_order, preferred};
 pub use transport::{Follow, FollowSettings, Followed, Groups, Leg, Transport};
 pub use uncertainty::Uncertainty;
 pub use workspace::{
-    HAND_CLEARANCE, MIN_LENGTH, Margins, OBSTACLE_CLEARANCE, SET_DOWN_CLEARANCE, STAND_OFF,
-    Workspace,
+    HAND_CLEARANCE, MIN_LENGTH, Margins, OBSTACLE_CLEARANCE, SET_DOWN_CLEARANCE, Workspace,
 };

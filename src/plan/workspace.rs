@@ -1,4 +1,4 @@
-//! Limits of a task for the tool: set-down positions, free travel, and margins to all rules.
+//! Limits of a task for the tool: free travel, and margins to all rules.
 
 use std::sync::Arc;
 
@@ -11,11 +11,7 @@ use crate::{
     task::{Push, PushForm, Task},
 };
 
-use super::{CandidatePush, Infeasible, Start};
-
-/// Travel of the contacting face before it meets the object, metres (by the definition of a
-/// placed push).
-pub const STAND_OFF: f64 = 0.005;
+use super::{Infeasible, Placement, STAND_OFF};
 
 /// Minimum distance between a descending tool and every object, metres. It is small compared with
 /// the stand-off, because a glancing face is closer to a round object than its travel.
@@ -48,9 +44,6 @@ const SHORTER: f64 = 0.02;
 
 /// Largest distance that margins distinguish, metres.
 const FAR: f64 = 0.05;
-
-/// Tolerance for rounding in comparisons of closed forms, metres.
-const ROUNDING: f64 = 1e-9;
 
 /// Tolerance of the rules, metres: iterative closest points are not exact to the last digit.
 const SLACK: f64 = 1e-6;
@@ -107,54 +100,6 @@ pub struct Workspace<'a> {
 }
 
 impl Workspace<'_> {
-    /// Returns the position of the end effector at the start of a candidate's push. In a placed
-    /// push, the part's leading face meets the object after exactly the stand-off and the push's
-    /// room, with the given offset. A chained push starts at `previous` or at home.
-    ///
-    /// # Errors
-    /// Returns [`Infeasible::NoContact`] or [`Infeasible::OtherPartFirst`]. Reach and collisions
-    /// are checked by [`Workspace::margins`].
-    pub fn place(
-        &self,
-        state: &State,
-        push: &CandidatePush,
-        previous: Option<Vector>,
-    ) -> Result<Vector, Infeasible> {
-        let Start::Placed { part, offset } = push.start else {
-            return Ok(previous.unwrap_or(self.task.robot.home));
-        };
-        let (tool, grip_yaw) = (&*self.tools[push.tool], push.grip_yaw);
-        let (footprint, at) = self.object(push.object, state);
-        let (ahead, left) = axes(push.direction);
-        let object = &self.task.scene.objects[push.object];
-        let meets = |k: usize| object.meets(self.span_of(&tool.parts()[k]));
-        if !meets(part) {
-            return Err(Infeasible::NoContact);
-        }
-        // All poses are computed with the end effector at the world's origin and shifted later.
-        let frame = tool.pose(Pose { position: Vector::zeros(), heading: grip_yaw });
-        let parts: Vec<(Footprint, Pose)> = (0..tool.parts().len())
-            .map(|k| (tool.parts()[k].footprint(), tool.part_pose(k, &frame)))
-            .collect();
-        let (face, pose) = parts[part];
-        let stand_off = STAND_OFF + push.room;
-        let behind = face.bounding_radius() + footprint.bounding_radius() + 2.0 * stand_off;
-        let lateral = at.position.dot(&left) - offset;
-        let far = left * lateral + ahead * (at.position.dot(&ahead) - behind);
-        let from = Pose { position: far, heading: pose.heading };
-        let travel = travel_to_contact((&face, &from), ahead, (&footprint, &at))
-            .ok_or(Infeasible::NoContact)?;
-        let start = far + ahead * (travel - stand_off) - pose.position;
-        for (other, (face, pose)) in parts.iter().enumerate() {
-            let there = Pose { position: pose.position + start, ..*pose };
-            let first = travel_to_contact((face, &there), ahead, (&footprint, &at));
-            if other != part && meets(other) && first.is_some_and(|t| t < stand_off - ROUNDING) {
-                return Err(Infeasible::OtherPartFirst);
-            }
-        }
-        Ok(start)
-    }
-
     /// Returns the longest travel, at most `length` metres, that satisfies reach and obstacle
     /// clearance.
     ///
@@ -235,11 +180,11 @@ impl Workspace<'_> {
         tool: &Tool,
         (from, to): (&Pose, &Pose),
         (state, pushed): (&State, usize),
-        set_down: Option<f64>,
+        set_down: Option<Placement>,
     ) -> f64 {
         let (task, mut least) = (self.task, FAR);
         // Position of the tool when it meets the pushed object.
-        let approach = set_down.map_or(0.0, |room| STAND_OFF + room);
+        let approach = set_down.map_or(0.0, |placement| placement.approach());
         let travel = (to.position - from.position).norm();
         let meets = from.towards(to, (approach / travel).min(1.0));
         let most = FAR + HAND_CLEARANCE;
@@ -276,14 +221,14 @@ impl Workspace<'_> {
     }
 
     /// Returns the margins of a push of object `pushed` from `state` to every rule. A tool that is
-    /// set down must clear the objects by the push's room in `set_down`; a chained push after the
-    /// first begins in contact.
+    /// set down must clear the objects by the room in `set_down`; a chained push after the first
+    /// begins in contact.
     pub fn margins(
         &self,
         (tool, grip_yaw): (usize, f64),
         (state, pushed): (&State, usize),
         push: &Push,
-        set_down: Option<f64>,
+        set_down: Option<Placement>,
     ) -> Margins {
         let (task, tool) = (self.task, &*self.tools[tool]);
         let frame = |position| tool.pose(Pose { position, heading: grip_yaw });
@@ -302,8 +247,8 @@ impl Workspace<'_> {
                 let gap = clearance((&shape, &from), (&other.footprint, &other.pose), most);
                 obstacle = obstacle.min(gap - OBSTACLE_CLEARANCE);
             }
-            if let Some(room) = set_down {
-                let clear = SET_DOWN_CLEARANCE + room.min(MOST_ASIDE);
+            if let Some(placement) = set_down {
+                let clear = SET_DOWN_CLEARANCE + placement.room.min(MOST_ASIDE);
                 for (other, pose) in task.scene.objects.iter().zip(&state.poses) {
                     if task.pushes.lift < other.top() {
                         let still = (&other.shape.footprint(), pose);
@@ -370,19 +315,19 @@ impl Workspace<'_> {
             + overhang * wide(&footprint, at.local_vector(left))
     }
 
-    fn object(&self, index: usize, state: &State) -> (Footprint, Pose) {
+    pub(super) fn object(&self, index: usize, state: &State) -> (Footprint, Pose) {
         (self.task.scene.objects[index].shape.footprint(), state.poses[index])
     }
 
     /// Returns the lowest and highest height of a tool's part above the table, metres.
-    fn span_of(&self, part: &Part) -> [f64; 2] {
+    pub(super) fn span_of(&self, part: &Part) -> [f64; 2] {
         let lift = self.task.pushes.lift;
         [lift, lift + part.shape.height()]
     }
 }
 
 /// Returns the unit vectors ahead and to the left.
-fn axes(direction: f64) -> (Vector, Vector) {
+pub(super) fn axes(direction: f64) -> (Vector, Vector) {
     let ahead = Vector::new(direction.cos(), direction.sin());
     (ahead, perpendicular(ahead))
 }

@@ -74,7 +74,7 @@ pub use quantity::Quantity;
 pub use raised::{bearings, hanging};
 pub use ranges::{Ranges, TRAINED_IMBALANCE, TRAINED_SLANT, TRAINED_SLIDE, TRAINED_TURN, slant};
 pub use region::Region;
-pub use robot::Robot;
+pub use robot::{Annulus, Robot};
 pub use separation::{Misfit, Separation};
 pub use sets::DisjointSets;
 pub use situation::Situation;

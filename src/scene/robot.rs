@@ -31,6 +31,23 @@ pub struct Robot {
     pub travel: f64,
 }
 
+/// Annulus of positions within reach of an end effector, seen from above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Annulus {
+    /// Centre in the world, metres.
+    pub centre: Vector,
+    /// Inner and outer radius, metres.
+    pub radii: [f64; 2],
+}
+
+impl Annulus {
+    /// Returns the smallest and the largest distance from the world's origin, metres.
+    pub fn distances(&self) -> [f64; 2] {
+        let ([near, far], away) = (self.radii, self.centre.norm());
+        [(near - away).max(away - far).max(0.0), far + away]
+    }
+}
+
 fn usual_travel() -> f64 {
     Robot::TRAVEL
 }

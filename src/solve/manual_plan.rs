@@ -8,7 +8,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use crate::geometry::Vector;
-use crate::plan::{CandidatePush, Infeasible, Start, Workspace};
+use crate::plan::{CandidatePush, Infeasible, Placement, Start, Workspace};
 use crate::sim::Simulator;
 use crate::{
     outcome::Record,
@@ -137,14 +137,14 @@ fn with_yaw(
     let mut state = situation.start.clone();
     for (k, asked) in pushes.iter().enumerate() {
         let previous = plan.push_steps().last().map(|step| step.push.end());
-        let (start, pushed) = start(task, (tool, grip_yaw), asked, &state, previous)?;
+        let (placement, pushed) = start(task, (tool, grip_yaw), asked, &state, previous)?;
         let push = Push {
-            start,
+            start: placement.start,
             direction: asked.direction,
             length: asked.length.unwrap_or(rules.length),
             speed: asked.speed.unwrap_or(rules.speed),
         };
-        let set_down = (k == 0 || form == PushForm::Placed).then_some(0.0);
+        let set_down = (k == 0 || form == PushForm::Placed).then_some(placement);
         let tools = std::slice::from_ref(tool);
         let workspace = Workspace { task, tools };
         let rule = workspace.margins((0, grip_yaw), (&state, pushed), &push, set_down).violation();
@@ -166,23 +166,30 @@ fn after(situation: &Situation, tool: &Arc<Tool>, push: &Plan, start: State) -> 
     Simulator::planar().run(&situation.scene, &job, Record::Outcome).outcome().clone()
 }
 
-/// Returns the start of the push and the index of its object.
+/// Returns the placement of the push and the index of its object.
 fn start(
     task: &Task,
     (tool, grip_yaw): (&Arc<Tool>, f64),
     asked: &ManualPush,
     state: &State,
     previous: Option<Vector>,
-) -> Result<(Vector, usize), ActionError> {
+) -> Result<(Placement, usize), ActionError> {
     let goal = task.goals[0].object;
     let chained = task.pushes.form == PushForm::Chained;
     let (object, offset) = match &asked.start {
         ManualStart::At(at) => {
             let elsewhere = |end: Vector| (end - at).norm() > SAME_PLACE;
             let broken = chained && previous.is_some_and(elsewhere);
-            return if broken { Err(ActionError::ChainBroken) } else { Ok((*at, goal)) };
+            return if broken {
+                Err(ActionError::ChainBroken)
+            } else {
+                Ok((Placement::at(*at), goal))
+            };
         }
-        ManualStart::Last if chained => return Ok((previous.unwrap_or(task.robot.home), goal)),
+        ManualStart::Last if chained => {
+            let start = previous.unwrap_or(task.robot.home);
+            return Ok((Placement::at(start), goal));
+        }
         ManualStart::Last => return Err(ActionError::NoStart),
         ManualStart::Before { .. } if chained => return Err(ActionError::Chained),
         ManualStart::Before { object, offset } => (object, *offset),
@@ -203,18 +210,19 @@ fn start(
         let (tool, room) = (0, 0.0);
         let push = CandidatePush { tool, grip_yaw, object: index, start, direction, length, room };
         match workspace.place(state, &push, previous) {
-            Ok(start) => {
-                let push = Push { start, direction, length, speed };
-                let margins = workspace.margins((0, grip_yaw), (state, index), &push, Some(0.0));
+            Ok(placement) => {
+                let push = Push { start: placement.start, direction, length, speed };
+                let pushed = (state, index);
+                let margins = workspace.margins((0, grip_yaw), pushed, &push, Some(placement));
                 if margins.violation().is_none() {
-                    return Ok((start, index));
+                    return Ok((placement, index));
                 }
-                first.get_or_insert(start);
+                first.get_or_insert(placement);
             }
             Err(infeasible) => why = infeasible,
         }
     }
     let refused =
         || ActionError::CannotPush { tool: tool.name.clone(), object: object.clone(), why };
-    first.map(|start| (start, index)).ok_or_else(refused)
+    first.map(|placement| (placement, index)).ok_or_else(refused)
 }

@@ -13,16 +13,15 @@ use serde_json::Value as Json;
 
 use super::{Plan, PushRules, Task};
 use crate::geometry::{Pose3, Vector};
-use crate::scene::{ArmFault, JointTrajectory, Obstacle, Robot, Scene, State, Tool};
+use crate::scene::{Annulus, ArmFault, JointTrajectory, Obstacle, Robot, Scene, State, Tool};
 
 /// The joint trajectory that carries out a plan, or the first infeasible push and the reason.
 pub type Followed = Result<JointTrajectory, (usize, ArmFault)>;
 
 /// A robot arm that holds tools over the table.
 pub trait RobotArm: Any + Debug + Send + Sync {
-    /// Returns the smallest and the largest distance from the base at which it holds a tool,
-    /// metres.
-    fn ring(&self) -> [f64; 2];
+    /// Returns the annulus in which it holds a tool, about its own base.
+    fn annulus(&self) -> Annulus;
 
     /// Returns the distance from its flange to the underside of a tool, metres.
     fn mount_length(&self) -> f64;

@@ -12,7 +12,7 @@ use crate::geometry::Vector;
 use super::arm::{self, RobotArm};
 use super::demand::MOST_CHOICES;
 use super::{Goal, LeverRules, ShownGoal};
-use crate::scene::{Plate, Scene, State, Unknowns};
+use crate::scene::{Annulus, Plate, Scene, State, Unknowns};
 
 /// The tools that a task allows.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -59,6 +59,13 @@ pub struct Task {
 }
 
 impl Task {
+    /// Returns the annulus within reach: about the base of an arm, otherwise about the origin.
+    pub fn annulus(&self) -> Annulus {
+        let Robot { reach_min, reach_max, .. } = self.robot;
+        let about_origin = Annulus { centre: Vector::zeros(), radii: [reach_min, reach_max] };
+        self.arm.as_ref().map_or(about_origin, |arm| arm.annulus())
+    }
+
     /// Default robustness of a task.
     pub const ROBUSTNESS: f64 = 0.75;
 

@@ -38,7 +38,7 @@ fn every_kind_of_goal_has_its_drawing() {
             notes: Vec::new(),
             scene: &task.scene,
             goals: task.shown_goals(),
-            robot: None,
+            reach: None,
             motions: &[],
             tracks: Vec::new(),
         };

@@ -45,6 +45,7 @@ mod mujoco_python;
 mod network;
 mod off_table;
 mod out_of_range;
+mod overhangs;
 mod overhead;
 mod owner;
 mod pages;

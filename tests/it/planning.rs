@@ -7,8 +7,8 @@ use std::sync::Arc;
 use pushplan::effect::Simulated;
 use pushplan::geometry::{Pose, Shape, Vector, clearance, travel_to_contact};
 use pushplan::plan::{
-    Candidate, CandidatePush, Infeasible, RefineSettings, RefineStatistics, Rollouts, STAND_OFF,
-    Search, SearchResult, SearchSettings, Start, Workspace, evaluate, kinds, refine,
+    Candidate, CandidatePush, Infeasible, Placement, RefineSettings, RefineStatistics, Rollouts,
+    STAND_OFF, Search, SearchResult, SearchSettings, Start, Workspace, evaluate, kinds, refine,
 };
 use pushplan::progress::NoProgress;
 use pushplan::sim::Simulator;
@@ -105,7 +105,7 @@ fn a_placed_face_stands_five_millimetres_before_the_object() {
                                 ..placed(part, offset, direction)
                             };
                             let place = space.place(&state, &push, None);
-                            let Ok(start) = place else {
+                            let Ok(Placement { start, .. }) = place else {
                                 refused += 1;
                                 continue;
                             };
@@ -148,7 +148,7 @@ fn a_hook_reaches_behind_an_object_and_pulls_it_back() {
     let space = workspace(&task, &tools);
     let state = task.scene.start();
     // The bar (part 1), pulled towards the robot, is behind the can.
-    let start = space.place(&state, &placed(1, 0.0, PI), None).unwrap();
+    let start = space.place(&state, &placed(1, 0.0, PI), None).unwrap().start;
     let frame = tools[0].pose(Pose { position: start, heading: 0.0 });
     let bar = tools[0].part_pose(1, &frame);
     assert!((bar.position.x - (0.60 + 0.04 + STAND_OFF + 0.02)).abs() < 1e-9);
@@ -179,7 +179,7 @@ fn reach_obstacles_and_height_limit_a_push() {
     let place = |task: &Task| {
         let space = workspace(task, &tools);
         let push = placed(0, 0.0, 0.0);
-        let start = space.place(&task.scene.start(), &push, None)?;
+        let start = space.place(&task.scene.start(), &push, None)?.start;
         space.free_travel(pair, start, 0.0, 0.3)
     };
     // The rod's tip is 0.45 from the grip, so the grip starts at 0.105.
@@ -321,7 +321,7 @@ fn a_push_stands_off_further_by_the_room_that_it_is_given() {
     let space = workspace(&task, &tools);
     let start = |room| {
         let push = CandidatePush { room, ..placed(0, 0.0, 0.0) };
-        space.place(&task.scene.start(), &push, None).unwrap().x
+        space.place(&task.scene.start(), &push, None).unwrap().start.x
     };
     assert!((start(0.0) - start(0.004) - 0.004).abs() < 1e-12);
 }

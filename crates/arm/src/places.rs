@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use pushplan::geometry::Vector;
+use pushplan::scene::Annulus;
 
 /// Largest plausible reach of an arm over a table, metres.
 const FARTHEST: f64 = 10.0;
@@ -48,11 +49,9 @@ impl Places {
         sound && (self.free.is_empty() || self.step >= FINEST && counted)
     }
 
-    /// Returns the smallest and the largest distance of the annulus from the world's origin,
-    /// metres.
-    pub fn ring_about_origin(&self) -> [f64; 2] {
-        let ([near, far], away) = (self.ring, self.centre.norm());
-        [(near - away).max(away - far).max(0.0), far + away]
+    /// Returns the annulus that contains all feasible positions.
+    pub fn annulus(&self) -> Annulus {
+        Annulus { centre: self.centre, radii: self.ring }
     }
 
     /// Returns `true` if a tool may be held at a position with the end effector rotated by `yaw`
@@ -119,7 +118,7 @@ mod tests {
         assert!(
             moved.allow(Vector::new(0.2, -0.5), 0.0) && !moved.allow(Vector::new(0.2, 0.0), 0.0)
         );
-        let [near, far] = moved.ring_about_origin();
+        let [near, far] = moved.annulus().distances();
         assert!((near - 0.2).abs() < 1e-12 && (far - 0.8).abs() < 1e-12);
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pushplan::geometry::{Turn3, Vector, Vector3};
-use pushplan::scene::{ArmFault, JointTrajectory, Obstacle, Scene, State, Tool};
+use pushplan::scene::{Annulus, ArmFault, JointTrajectory, Obstacle, Scene, State, Tool};
 use pushplan::task::{
     ArmRefusal, ArmSource, Followed, Plan, RobotArm, StatedArm, Task, read_arms_with,
 };
@@ -182,8 +182,8 @@ fn from_urdf(_: &ArmSource) -> Result<Arm, Wrong> {
 }
 
 impl RobotArm for Arm {
-    fn ring(&self) -> [f64; 2] {
-        self.places.ring_about_origin()
+    fn annulus(&self) -> Annulus {
+        self.places.annulus()
     }
 
     fn mount_length(&self) -> f64 {

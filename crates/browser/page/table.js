@@ -130,9 +130,9 @@ function grid() {
     const [left, top] = map([x - w / 2, y + h / 2]);
     root.append(svg('rect', { x: left, y: top, width: px(w), height: px(h), class: 'table' }));
   }
-  const [x, y] = map([0, 0]);
+  const [x, y] = map(baseOf(task.stage));
   for (const body of task.stage.obstacles.filter((one) => one.base)) still(body.shape, body.at, 'base', body.name);
-  root.append(...robotMark(task.stage.obstacles, px, map));
+  root.append(...robotMark(task.stage, px, map));
   for (const region of task.stage.regions ?? []) still(region.shape, region.at, 'keep-out', region.name);
   for (const goal of task.stage.goals) {
     for (const area of goal.areas) still(area.shape, area.at, area.leave ? 'leave' : 'goal', goal.words);

@@ -129,7 +129,6 @@ pub fn run(args: &ImportArgs, session: &Session) -> Result<u8, CliError> {
         bodies: args.bodies.clone(),
         free: args.free.clone(),
         fixed: args.fixed,
-        strict: args.strict,
         density: args.density,
         name: args.name.clone(),
         friction: args.friction,

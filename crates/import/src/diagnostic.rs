@@ -31,19 +31,22 @@ pub struct Note {
 pub(super) struct Ledger {
     /// Names of the file and of the files it includes.
     files: Vec<String>,
+    /// Whether nothing may be assumed.
+    strict: bool,
     faults: Vec<Fault>,
     notes: Vec<Note>,
 }
 
 impl Ledger {
-    /// Creates an empty ledger for the named file and the files it includes.
-    pub fn new(file: &str, files: &[String]) -> Self {
+    /// Creates an empty ledger for the named file and the files it includes. If it is `strict`,
+    /// nothing may be assumed.
+    pub fn new(file: &str, files: &[String], strict: bool) -> Self {
         let mut files = files.to_vec();
         match files.first_mut() {
             Some(first) => file.clone_into(first),
             None => files.push(file.to_owned()),
         }
-        Self { files, faults: Vec::new(), notes: Vec::new() }
+        Self { files, strict, faults: Vec::new(), notes: Vec::new() }
     }
 
     /// Returns the names of the file and of the files it includes or attaches.
@@ -85,6 +88,29 @@ impl Ledger {
         let Place { line, column, .. } = place;
         let at = format!("{}:{line}:{column}", self.file(place));
         self.note_all(&[Note { effect, at, message: message.as_ref().to_owned() }]);
+    }
+
+    /// Assumes something that the file leaves open, with a note on the element at a place or on the
+    /// whole file. Returns `false` without a note if nothing may be assumed: the file is then read
+    /// as it is, and the open point is a fault.
+    pub fn assume(
+        &mut self,
+        effect: Effect,
+        place: impl Into<Option<Place>>,
+        note: impl AsRef<str>,
+    ) -> bool {
+        if !self.strict {
+            match place.into() {
+                Some(place) => self.note_as(effect, place, note),
+                None => self.note_of_file(effect, note.as_ref()),
+            }
+        }
+        !self.strict
+    }
+
+    /// Returns `true` if nothing may be assumed.
+    pub fn is_strict(&self) -> bool {
+        self.strict
     }
 
     /// Adds a note on the whole file.

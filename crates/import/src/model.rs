@@ -48,6 +48,8 @@ pub struct Model {
     pub ours: bool,
     /// Whether the larger of two friction values applies to a pair.
     pub larger_friction: bool,
+    /// Whether nothing may be assumed, so that what the file leaves open is a fault.
+    pub strict: bool,
 }
 
 /// Element other than a body that would change pushes.

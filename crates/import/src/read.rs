@@ -43,12 +43,12 @@ impl Language {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
     /// Folder that must contain all files named by the file; by default its own folder. Unless
-    /// nothing is assumed, meshes may also lie in the folders around it.
+    /// nothing may be assumed, meshes may also lie in the folders around it.
     pub root: Option<PathBuf>,
     /// Unit of an imported mesh file, metres; by default metres, or the unit that makes the mesh an
     /// object on a table.
     pub unit: Option<f64>,
-    /// Whether nothing is assumed, so that an implausible unit or a mesh elsewhere is a fault.
+    /// Whether nothing is assumed, so that what a file leaves open is a fault.
     pub strict: bool,
 }
 
@@ -64,7 +64,7 @@ pub fn read(path: impl AsRef<Path>, reading: &Reading) -> Result<(Model, Languag
     }
     let (file, text) = read_text(path)?;
     let files = Files::of(path, reading.root.as_deref());
-    parsed(&text, &file, &if reading.strict { files } else { files.around() })
+    parsed(&text, &file, &files, reading.strict)
 }
 
 /// Reads an MJCF or URDF text that names no other files; `file` is its name in faults.
@@ -72,14 +72,19 @@ pub fn read(path: impl AsRef<Path>, reading: &Reading) -> Result<(Model, Languag
 /// # Errors
 /// Returns all faults of the text, each with its place.
 pub fn parse(text: &str, file: &str) -> Result<(Model, Language), Faults> {
-    parsed(text, file, &Files::default())
+    parsed(text, file, &Files::default(), false)
 }
 
-/// Reads a text that may name `files`.
-pub(super) fn parsed(text: &str, file: &str, files: &Files) -> Result<(Model, Language), Faults> {
+/// Reads a text that may name `files`. If it is read strictly, nothing is assumed.
+pub(super) fn parsed(
+    text: &str,
+    file: &str,
+    files: &Files,
+    strict: bool,
+) -> Result<(Model, Language), Faults> {
     let spliced = Spliced::read(text, file, files)?;
     let document = document(&spliced.text, file)?;
-    let mut source = Source::new(&spliced, Ledger::new(file, &spliced.names()));
+    let mut source = Source::new(&spliced, Ledger::new(file, &spliced.names(), strict));
     let root = document.root_element();
     let (model, language) = match root.tag_name().name() {
         "mujoco" => (mjcf::model(&mut source, root, files), Language::Mjcf),
@@ -99,5 +104,6 @@ pub(super) fn parsed(text: &str, file: &str, files: &Files) -> Result<(Model, La
     let (mut model, notes) = source.ledger.finish(model)?;
     model.files = names;
     model.notes = notes;
+    model.strict = strict;
     Ok((model, language))
 }

@@ -26,8 +26,8 @@ use crate::foreign::{Files, Refused};
 /// Name of the link that represents the world.
 const WORLD: &str = Body::WORLD;
 
-/// Elements that do not affect the result of pushes.
-const HARMLESS: [&str; 4] = ["material", "gazebo", "transmission", "ros2_control"];
+/// Elements that do not affect the result of pushes, such as the drives of joints.
+const HARMLESS: [&str; 3] = ["material", "transmission", "ros2_control"];
 
 /// Link, with the joint that attaches it.
 struct Link<'a> {
@@ -59,7 +59,11 @@ pub(super) fn model<'a>(
         match node.tag_name().name() {
             "link" if own => {}
             "joint" if own => hang(source, node, &mut links)?,
-            tag if HARMLESS.contains(&tag) => {}
+            // Properties of links in simulators are read with the links.
+            "gazebo" => {}
+            tag if HARMLESS.contains(&tag) => {
+                source.judge(Language::Urdf, tag, node, |name| node.attribute_node(name))
+            }
             _ if node.tag_name().namespace().is_some_and(|space| space.contains("xacro")) => {
                 source.fault(node, "this is a xacro macro", "expand it: `xacro FILE > robot.urdf`");
             }
@@ -289,13 +293,7 @@ fn outline<'a>(source: &mut Source<'a>, collision: Node<'a, 'a>, files: &Files) 
     Some(match source.sound(foreign::geometry(collision))? {
         Geometry::Solid(Outline::Other(tag)) => Outline::Other(format!("a {tag}")),
         Geometry::Solid(outline) => outline,
-        Geometry::Mesh { file, scale } => {
-            let found = files.mesh("", &file);
-            if let Ok((path, true)) = &found {
-                source.elsewhere(collision, &file, path);
-            }
-            mesh(found.map(|(path, _)| path), scale)
-        }
+        Geometry::Mesh { file, scale } => mesh(source.mesh(collision, (files, ""), &file), scale),
     })
 }
 

@@ -1,6 +1,6 @@
 //! XML elements with their places, and numbers in attributes.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use roxmltree::{Attribute, Node};
 
@@ -11,6 +11,7 @@ use super::spliced::Spliced;
 use crate::Language;
 use crate::foreign::xml::{self, Flaw};
 pub(super) use crate::foreign::xml::{element, elements};
+use crate::foreign::{Files, Refused};
 
 /// File being read.
 pub(super) struct Source<'a> {
@@ -114,12 +115,23 @@ impl<'a> Source<'a> {
         read.map_err(note).ok()
     }
 
-    /// Notes that a mesh is not where the file states.
-    pub fn elsewhere(&mut self, node: Node<'a, 'a>, name: &str, path: &Path) {
+    /// Finds the mesh `name` of an element, optionally in the folder `base` that the file states. A
+    /// mesh in another folder around the file is an assumption.
+    pub fn mesh(
+        &mut self,
+        node: Node<'a, 'a>,
+        (files, base): (&Files, &str),
+        name: &str,
+    ) -> Result<PathBuf, Refused> {
         let place = self.place(node);
-        let note =
-            format!("`{name}` is outside the folder of the file; {} is used", path.display());
-        self.ledger.note_as(Effect::Slight, place, note);
+        files.find(base, name).or_else(|refused| {
+            let elsewhere = files.around(base, name).filter(|path| {
+                let path = path.display();
+                let note = format!("`{name}` is outside the folder of the file; {path} is used");
+                self.ledger.assume(Effect::Slight, place, note)
+            });
+            elsewhere.ok_or(refused)
+        })
     }
 
     /// Returns all numbers of an attribute; `None` with a fault if one is not a finite number.

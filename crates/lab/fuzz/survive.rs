@@ -157,7 +157,7 @@ fn picture(scene: &Scene, motion: Option<&ToolMotion>, trajectory: Option<&Traje
         notes: Vec::new(),
         scene,
         goals: Vec::new(),
-        robot: None,
+        reach: None,
         motions: motion.map(std::slice::from_ref).unwrap_or_default(),
         tracks: trajectory.map(track).into_iter().collect(),
     };

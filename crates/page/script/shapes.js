@@ -111,10 +111,15 @@ function strokeShapes(stroke, k, tools, map) {
   ];
 }
 
-/** Returns the robot at the origin: a dot, and its name below the base or the dot. */
-function robotMark(obstacles, px, map) {
-  const [cx, cy] = map([0, 0]);
-  const low = Math.max(0, ...obstacles.filter((body) => body.base).map((body) => radius(body.shape) * 0.71));
+/** Returns the centre of the reach in metres: the base of the robot. */
+function baseOf(stage) {
+  return (stage.base ?? [0, 0]).map((value) => value * LENGTH);
+}
+
+/** Returns the robot at its base: a dot, and its name below the base or the dot. */
+function robotMark(stage, px, map) {
+  const [cx, cy] = map(baseOf(stage));
+  const low = Math.max(0, ...stage.obstacles.filter((body) => body.base).map((body) => radius(body.shape) * 0.71));
   return [
     svg('circle', { cx, cy, r: 4, class: 'robot' }, svg('title', {}, 'robot')),
     svg('text', { x: cx, y: cy + px(low) + 16, class: 'small middle' }, low ? 'robot base' : 'robot'),

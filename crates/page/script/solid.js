@@ -177,7 +177,7 @@ const solid = (() => {
 
   function drawStill() {
     const { objects, obstacles, reach, regions = [] } = page.stage;
-    for (const radius of reach) scene.add(ring([0, 0], radius * LENGTH, colour('accent')));
+    for (const radius of reach) scene.add(ring(baseOf(page.stage), radius * LENGTH, colour('accent')));
     for (const body of obstacles) {
       const low = body.base ? { ...body, height: Math.min(body.height, FOOT / LENGTH) } : body;
       const tint = colour(body.base ? 'faint' : 'hatch');

@@ -98,7 +98,7 @@
       still.append(svg('rect', { x: left, y: top, width: px(w), height: px(h), class: 'table' }));
     }
     drawGrid();
-    const [baseX, baseY] = map([0, 0]);
+    const [baseX, baseY] = map(baseOf(page.stage));
     for (const ring of reach) {
       still.append(svg('circle', { cx: baseX, cy: baseY, r: px(ring * LENGTH), class: 'reach' }));
     }
@@ -111,7 +111,7 @@
       shape.append(svg('title', {}, body.under ? `${body.name}, ${height} m above the table` : body.name));
       (body.under ? over : still).append(shape);
     }
-    still.append(...robotMark(obstacles, px, map));
+    still.append(...robotMark(page.stage, px, map));
     objects.forEach((body, k) => {
       const className = wants(k) ? 'start own' : 'start';
       still.append(outline(body.shape, { transform: at(posed(body.at)), class: className }));

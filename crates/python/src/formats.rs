@@ -163,7 +163,7 @@ pub fn import_task(
         return Err(PyValueError::new_err(message));
     }
     let free = free.unwrap_or_default();
-    let wanted = Wanted { bodies, free, fixed, strict, density, name, friction, shift };
+    let wanted = Wanted { bodies, free, fixed, density, name, friction, shift };
     let reading = reading(root, unit, strict)?;
     let scene = imported(py, path, &reading, &wanted, pushplan_import::objects)?;
     Ok(PyTask { task: Arc::new(scene.task), source: None })

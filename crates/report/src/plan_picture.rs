@@ -128,7 +128,7 @@ fn still<'a>(
         ],
         scene: &task.scene,
         goals: task.shown_goals(),
-        robot: Some(&task.robot),
+        reach: Some(task.annulus()),
         motions,
         tracks,
     }

@@ -282,7 +282,7 @@ fn picture(trace: &Trace) -> Figure {
         notes: vec![format!("unknown: {}", task.unknown)],
         scene: &scene,
         goals: task.shown_goals(),
-        robot: Some(&task.robot),
+        reach: Some(task.annulus()),
         motions: &motions,
         tracks: vec![Track { source, trajectory: &trajectory }],
     };

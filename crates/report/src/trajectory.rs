@@ -23,7 +23,7 @@ pub fn trajectory_figures(file: &TrajectoryFile, name: &str, animate: bool) -> V
         notes: vec![format!("final error {}", millimetres(error))],
         scene: &task.scene,
         goals: task.shown_goals(),
-        robot: Some(&task.robot),
+        reach: Some(task.annulus()),
         motions: &motions,
         tracks: vec![Track { source, trajectory }],
     };

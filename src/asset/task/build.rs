@@ -191,7 +191,7 @@ pub(super) fn reach_min(robot: &Node, reach: &Node) -> Option<f64> {
 /// Returns the robot that represents an arm: its reach is the annulus in which the arm can hold
 /// tools.
 fn standing(node: &Node, arm: &dyn RobotArm) -> Option<Robot> {
-    let [near, far] = arm.ring();
+    let [near, far] = arm.annulus().distances();
     Some(Robot {
         home: arm.home(),
         max_force: max_force(node)?,

@@ -265,9 +265,9 @@ pub(super) fn holds(
                         CandidatePush { tool, grip_yaw, object, start, direction, length, room };
                     // Lateral offset of the object's centre from the middle of the face.
                     let past = offset + (centre - state.poses[object].position).dot(&left);
-                    let Ok(effector) = workspace.place(state, &push, None) else { continue };
+                    let Ok(placement) = workspace.place(state, &push, None) else { continue };
                     if past.abs() < half + BESIDE * radius {
-                        ways.push((past.abs(), effector - at));
+                        ways.push((past.abs(), placement.start - at));
                     }
                 }
             }

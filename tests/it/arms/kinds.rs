@@ -6,6 +6,8 @@ use std::fs;
 use pushplan::Task;
 use pushplan::asset::PlanFile;
 use pushplan_arm::Arm;
+use pushplan_report::task_stage;
+use serde_json::json;
 
 use super::{ROBOT, TASK, URDF, at, folder, solve, write};
 use crate::program::{run, stderr};
@@ -192,6 +194,10 @@ fn an_arm_stands_at_its_base_pose() {
     let plan = solved(&made);
     let arm = plan.task.arm.as_deref().and_then(|arm| arm.downcast::<Arm>()).expect("an arm");
     assert!((arm.base.position.x - 0.2).abs() < 1e-12 && (arm.places.centre.y + 0.6).abs() < 1e-9);
+    // Pictures show the annulus of the arm.
+    let annulus = plan.task.annulus();
+    assert_eq!((annulus.centre, annulus.radii), (arm.places.centre, arm.places.ring));
+    assert_eq!(task_stage(&plan.task)["base"], json!([20_000, -60_000]));
     // Beside this base, out of its reach although near the origin.
     let away = plan.task.arm.as_deref().expect("an arm");
     assert!(!away.allows(pushplan::Vector::new(0.2, 0.6), 0.0));

@@ -19,11 +19,11 @@ use As::{Objects as O, Tool as T};
 
 /// Returns the notes of a strict import, or all its faults.
 fn import(text: &str, what: As, wanted: &Wanted) -> Result<String, String> {
-    let (model, _) = parse(text, "f").map_err(|faults| faults.to_string())?;
-    let strict = Wanted { strict: true, ..wanted.clone() };
+    let (mut model, _) = parse(text, "f").map_err(|faults| faults.to_string())?;
+    model.strict = true;
     let notes = match what {
-        O => objects(&model, "f", &strict).map(|made| made.notes),
-        T => tool(&model, "f", &strict).map(|made| made.notes),
+        O => objects(&model, "f", wanted).map(|made| made.notes),
+        T => tool(&model, "f", wanted).map(|made| made.notes),
     };
     notes.map(|notes| notes.join("\n")).map_err(|faults| faults.to_string())
 }

@@ -6,7 +6,7 @@ use pushplan::{
     scene::{JointKind, Surface},
     task::Task,
 };
-use pushplan_import::{Wanted, objects, parse, tool};
+use pushplan_import::{Model, Wanted, objects, parse, tool};
 
 const KITCHEN: &str = include_str!("../../cmd/import.in/kitchen.xml");
 
@@ -18,8 +18,9 @@ fn scene(text: &str, wanted: &Wanted) -> Task {
 
 /// Returns all faults of a text.
 fn faults(text: &str, as_tool: bool) -> String {
-    let wanted = Wanted { strict: true, ..Wanted::default() };
-    let found = parse(text, "f.xml").and_then(|(model, ..)| match as_tool {
+    let wanted = Wanted::default();
+    let strict = |(model, _)| Model { strict: true, ..model };
+    let found = parse(text, "f.xml").map(strict).and_then(|model| match as_tool {
         true => tool(&model, "f.xml", &wanted).map(|_| ()),
         false => objects(&model, "f.xml", &wanted).map(|_| ()),
     });

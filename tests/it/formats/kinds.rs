@@ -9,16 +9,16 @@ use pushplan_import::{Wanted, objects, parse, tool};
 
 pub(super) type Taken = Result<(Task, String), String>;
 
-/// Returns the task of a text with all notes, or all faults.
+/// Returns the task of a text with all notes, or all faults, if nothing is assumed.
 fn taken(text: &str, wanted: &Wanted) -> Taken {
-    let (model, _) = parse(text, "f").map_err(|faults| faults.to_string())?;
+    let (mut model, _) = parse(text, "f").map_err(|faults| faults.to_string())?;
+    model.strict = true;
     let made = objects(&model, "f", wanted).map_err(|faults| faults.to_string())?;
     Ok((made.value.task, made.notes.join("\n")))
 }
 
-/// Returns the options of an import of all bodies that assumes nothing.
-pub(super) fn all() -> Wanted {
-    Wanted { strict: true, ..Wanted::default() }
+fn all() -> Wanted {
+    Wanted::default()
 }
 
 fn body(name: &str) -> Wanted {

@@ -7,7 +7,12 @@ use pushplan::Vector;
 use pushplan::scene::Support;
 use pushplan_import::{Reading, Wanted, objects, read};
 
-use super::kinds::{Taken, all};
+use super::kinds::Taken;
+
+/// Returns the options of reading without assumptions.
+pub(super) fn strict() -> Reading {
+    Reading { strict: true, ..Reading::default() }
+}
 
 /// Returns the task of a file in a folder of these files, with all notes; or all faults.
 pub(super) fn taken_of(files: &[(&str, &[u8])], reading: &Reading, wanted: &Wanted) -> Taken {
@@ -41,8 +46,8 @@ pub(super) fn cube(side: f64) -> Vec<u8> {
 #[test]
 fn a_mesh_is_a_thing_on_the_table() {
     let made = |unit: Option<f64>, density: Option<f64>, side: f64| {
-        let reading = Reading { unit, strict: true, ..Reading::default() };
-        taken_of(&[("cube.obj", &cube(side))], &reading, &Wanted { density, strict: true, ..all() })
+        let wanted = Wanted { density, ..Wanted::default() };
+        taken_of(&[("cube.obj", &cube(side))], &Reading { unit, ..strict() }, &wanted)
     };
     let (task, _) = made(Some(1e-3), Some(700.0), 60.0).expect("a task");
     let object = &task.scene.objects[0];
@@ -54,7 +59,7 @@ fn a_mesh_is_a_thing_on_the_table() {
     assert!(fault.contains("--unit mm makes it 0.060 m"), "{fault}");
     let fault = made(Some(1e-3), None, 60.0).expect_err("no mass");
     assert!(fault.contains("--density 700"), "{fault}");
-    let broken = taken_of(&[("cube.stl", b"solid x\nfacet")], &Reading::default(), &all());
+    let broken = taken_of(&[("cube.stl", b"solid x\nfacet")], &strict(), &Wanted::default());
     assert!(broken.expect_err("a fault").contains("cannot be read as a mesh"));
 }
 
@@ -96,28 +101,28 @@ fn meshes_and_includes_lie_beside_the_file_or_below_what_is_named() {
         ("parts/assets.xml", assets.as_bytes()),
         ("parts/cube.obj", &solid),
     ];
-    let (task, _) = taken_of(&files, &Reading::default(), &all()).expect("a task");
+    let (task, _) = taken_of(&files, &strict(), &Wanted::default()).expect("a task");
     let object = &task.scene.objects[0];
     assert!((object.mass - 0.216).abs() < 1e-9 && object.support == Support::Even);
     // A fault of an included file has its place in that file.
     let wrong = assets.replace("<asset>", "<compiler eulerseq='q'/><asset>");
     let files = [files[0], ("parts/assets.xml", wrong.as_bytes()), files[2]];
-    let fault = taken_of(&files, &Reading::default(), &all()).expect_err("a fault");
+    let fault = taken_of(&files, &strict(), &Wanted::default()).expect_err("a fault");
     assert!(fault.contains("assets.xml:2:11: error: the compiler's eulerseq"), "{fault}");
     // Files above the folder are read only with a root folder.
     let scene = scene.replace("parts/", "../parts/");
     let assets = assets.replace("parts/", "../parts/");
     let files: [(&str, &[u8]); 3] =
         [("scenes/scene.xml", scene.as_bytes()), ("parts/assets.xml", assets.as_bytes()), files[2]];
-    let fault = taken_of(&files, &Reading::default(), &all()).expect_err("a fault");
+    let fault = taken_of(&files, &strict(), &Wanted::default()).expect_err("a fault");
     assert!(
         fault.contains("outside the folder of the file") && fault.contains("--root "),
         "{fault}"
     );
-    let root = Reading { root: Some("".into()), ..Reading::default() };
-    taken_of(&files, &root, &all()).expect("the advice was followed");
+    let root = Reading { root: Some("".into()), ..strict() };
+    taken_of(&files, &root, &Wanted::default()).expect("the advice was followed");
     let circle = "<mujoco><include file='a.xml'/></mujoco>";
-    let circle = taken_of(&[("a.xml", circle.as_bytes())], &Reading::default(), &all());
+    let circle = taken_of(&[("a.xml", circle.as_bytes())], &strict(), &Wanted::default());
     assert!(circle.expect_err("a fault").contains("include each other"));
 }
 
@@ -143,7 +148,7 @@ fn bodies_of_other_models_are_attached_at_their_frames() {
         ("parts/tray.xml", tray.as_bytes()),
         ("parts/meshes/cube.obj", &solid),
     ];
-    let (task, _) = taken_of(&files, &Reading::default(), &all()).expect("a task");
+    let (task, _) = taken_of(&files, &strict(), &Wanted::default()).expect("a task");
     let objects = &task.scene.objects;
     let names: Vec<&str> = objects.iter().map(|one| one.name.as_str()).collect();
     // An object is named after the body that has its solids.
@@ -157,7 +162,7 @@ fn bodies_of_other_models_are_attached_at_their_frames() {
     // attached.
     let bad = tray.replace("angle='radian'", "eulerseq='q'");
     let wrong = [files[0], ("parts/tray.xml", bad.as_bytes()), files[2]];
-    let fault = taken_of(&wrong, &Reading::default(), &all()).expect_err("a fault");
+    let fault = taken_of(&wrong, &strict(), &Wanted::default()).expect_err("a fault");
     assert!(fault.contains("tray.xml:1:") && fault.contains("eulerseq"), "{fault}");
     for (good, bad, message) in [
         ("body='can'", "body='cup'", "the model `m` has no body `cup`"),
@@ -166,7 +171,7 @@ fn bodies_of_other_models_are_attached_at_their_frames() {
     ] {
         let scene = scene.replace(good, bad);
         let files = [("scene.xml", scene.as_bytes()), files[1], files[2]];
-        let fault = taken_of(&files, &Reading::default(), &all()).expect_err("a fault");
+        let fault = taken_of(&files, &strict(), &Wanted::default()).expect_err("a fault");
         assert!(fault.contains(message), "{bad}: {fault}");
     }
 }
@@ -184,7 +189,7 @@ fn models_that_attach_each_other_or_far_too_much_are_faults_at_once() {
     let fault = |files: &[(String, String)]| {
         let files: Vec<(&str, &[u8])> =
             files.iter().map(|(name, text)| (name.as_str(), text.as_bytes())).collect();
-        taken_of(&files, &Reading::default(), &all()).expect_err("a fault")
+        taken_of(&files, &strict(), &Wanted::default()).expect_err("a fault")
     };
     let own = fault(&[("a.xml".into(), attaching("a.xml", 1))]);
     assert!(own.contains("attach each other"), "{own}");
@@ -202,6 +207,6 @@ fn models_that_attach_each_other_or_far_too_much_are_faults_at_once() {
 fn damaged_meshes_and_folders_are_faults() {
     assert!(read(Path::new("/nowhere/thing.stl"), &Reading::default()).is_err());
     let flat = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
-    let made = taken_of(&[("flat.obj", flat)], &Reading::default(), &all());
+    let made = taken_of(&[("flat.obj", flat)], &strict(), &Wanted::default());
     assert!(made.expect_err("a fault").contains("flat"));
 }

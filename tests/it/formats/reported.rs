@@ -9,7 +9,7 @@ use pushplan::task::Task;
 use pushplan_import::{Reading, Wanted, objects, parse, read};
 
 use super::kinds::Taken;
-use super::meshes::taken_of;
+use super::meshes::{strict, taken_of};
 
 fn taken_with(text: &str, wanted: &Wanted) -> Taken {
     let (model, _) = parse(text, "f").map_err(|faults| faults.to_string())?;
@@ -19,6 +19,14 @@ fn taken_with(text: &str, wanted: &Wanted) -> Taken {
 
 fn taken(text: &str) -> Taken {
     taken_with(text, &Wanted::default())
+}
+
+/// Returns the task of a text with all notes, or all faults, if nothing is assumed.
+fn strictly(text: &str) -> Taken {
+    let (mut model, _) = parse(text, "f").map_err(|faults| faults.to_string())?;
+    model.strict = true;
+    let made = objects(&model, "f", &Wanted::default()).map_err(|faults| faults.to_string())?;
+    Ok((made.value.task, made.notes.join("\n")))
 }
 
 fn named(names: &[&str]) -> Wanted {
@@ -127,12 +135,7 @@ fn equality_constraints_act_on_the_bodies_that_they_name_while_they_are_active()
         mjcf(&(body("plank", "0") + &body("leg", ".3") + &body("far", "-.3") + door))
             .replace("</mujoco>", &format!("{section}</mujoco>"))
     };
-    let things = |text: &str, wanted: &Wanted| {
-        let made = taken_with(text, wanted);
-        made.map(|(task, notes)| (task.scene.things().count(), notes))
-    };
-    let all = Wanted::default();
-    let usual = things(&scene(""), &all).expect("a task").0;
+    let usual = taken(&scene("")).expect("a task").0.scene.things().count();
     for (inactive, before) in [
         ("<equality><weld active='false' body1='plank' body2='leg'/></equality>", ""),
         ("<equality><joint active='false' joint1='hinge'/></equality>", ""),
@@ -146,8 +149,8 @@ fn equality_constraints_act_on_the_bodies_that_they_name_while_they_are_active()
         ),
     ] {
         let text = scene(inactive).replace("<mujoco>", &format!("<mujoco>{before}"));
-        let (count, notes) =
-            things(&text, &Wanted { strict: true, ..all.clone() }).expect("a task");
+        let (task, notes) = strictly(&text).expect("a task");
+        let count = task.scene.things().count();
         assert!(
             count == usual && !notes.contains("weld") && !notes.contains("<connect>"),
             "{notes}"
@@ -155,26 +158,26 @@ fn equality_constraints_act_on_the_bodies_that_they_name_while_they_are_active()
     }
     // An active weld fixes the two to each other, or one to the world.
     let weld = scene("<equality><weld body1='leg' body2='plank'/></equality>");
-    for wanted in [all.clone(), named(&["plank", "leg"])] {
+    for wanted in [Wanted::default(), named(&["plank", "leg"])] {
         let (task, _) = taken_with(&weld, &wanted).expect("a task");
         assert!((task.scene.mass(0) - 0.6).abs() < 1e-9, "{}", task.scene.mass(0));
     }
     let held = scene("<equality><weld body1='leg'/></equality>");
-    assert_eq!(things(&held, &all).expect("a task").0, usual - 1);
+    assert_eq!(taken(&held).expect("a task").0.scene.things().count(), usual - 1);
     // Others are faults for the bodies that they name alone.
     for section in [
         "<connect body1='plank' body2='leg' anchor='0 0 0'/>",
         "<weld body1='plank' body2='leg' relpose='1 0 0 1 0 0 0'/>",
     ] {
         let text = scene(&format!("<equality>{section}</equality>"));
-        let fault = things(&text, &named(&["plank"])).expect_err("a fault");
+        let fault = taken_with(&text, &named(&["plank"])).expect_err("a fault");
         assert!(fault.contains("acts on `plank`"), "{fault}");
-        let (_, notes) = things(&text, &named(&["far"])).expect("a task");
+        let (_, notes) = taken_with(&text, &named(&["far"])).expect("a task");
         assert!(notes.contains("is ignored"), "{notes}");
     }
     let joint = scene("<equality><joint joint1='hinge'/></equality>");
-    assert!(things(&joint, &named(&["door"])).expect_err("a fault").contains("acts on `door`"));
-    assert!(things(&joint, &named(&["plank"])).is_ok());
+    assert!(taken_with(&joint, &named(&["door"])).expect_err("a fault").contains("acts on `door`"));
+    assert!(taken_with(&joint, &named(&["plank"])).is_ok());
 }
 
 #[test]
@@ -236,8 +239,6 @@ fn drawers_that_hang_are_lowered_over_what_they_pass() {
 #[test]
 fn what_messages_advise_is_assumed_unless_nothing_may_be() {
     let cube = super::meshes::cube(60.0);
-    let strict = Wanted { strict: true, ..Wanted::default() };
-    let none = Reading { strict: true, ..Reading::default() };
     // Unit and density.
     let (task, notes) =
         taken_of(&[("cube.obj", &cube)], &Reading::default(), &Wanted::default()).expect("a task");
@@ -248,7 +249,7 @@ fn what_messages_advise_is_assumed_unless_nothing_may_be() {
     assert!((task.scene.objects[0].mass - 0.216).abs() < 1e-9 && task.unknown.masses);
     assert!(task.to_yaml().expect("YAML").contains("masses"));
     assert!(
-        taken_of(&[("cube.obj", &cube)], &none, &strict)
+        taken_of(&[("cube.obj", &cube)], &strict(), &Wanted::default())
             .expect_err("a fault")
             .contains("--unit mm")
     );
@@ -270,7 +271,7 @@ fn what_messages_advise_is_assumed_unless_nothing_may_be() {
             task.scene.objects[0].name == "object" && notes.contains("taken for a free object"),
             "{notes}"
         );
-        assert!(taken_with(&text, &strict).expect_err("a fault").contains("--free"));
+        assert!(strictly(&text).expect_err("a fault").contains("--free"));
     }
     let two = library(&format!("{body}{}", body.replace("object", "other")));
     assert!(taken(&two).expect_err("a fault").contains("--free object"));
@@ -286,11 +287,11 @@ fn what_messages_advise_is_assumed_unless_nothing_may_be() {
             && notes.lines().next().is_some_and(|line| line.contains("`arm` is left out")),
         "{notes}"
     );
-    assert!(taken_with(&scene, &strict).is_err());
+    assert!(strictly(&scene).is_err());
     // Shapes that are only drawn stand for a file without collision.
     let drawn = "<robot name='r'><link name='a'><inertial><mass value='.5'/></inertial><visual><geometry><box size='.1 .08 .06'/></geometry></visual></link></robot>";
     assert!(taken(drawn).expect("a task").1.contains("visual shapes do"));
-    assert!(taken_with(drawn, &strict).is_err());
+    assert!(strictly(drawn).is_err());
 }
 
 #[test]

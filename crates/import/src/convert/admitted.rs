@@ -6,7 +6,6 @@ use crate::diagnostic::{Effect, Ledger};
 use crate::model::{Body, Outline, Solid};
 
 use super::upright::{Upright, cloud};
-use super::wanted::Wanted;
 
 /// Collision solid, with the index of its body.
 pub(super) type Owned<'a> = (usize, &'a Solid);
@@ -22,19 +21,14 @@ const POINT: f64 = 2e-3;
 const REACHES: f64 = 1e-4;
 
 /// Returns the collision solids of bodies without those that are too flat to be pushed.
-pub(super) fn without_flat<'a>(
-    all: Vec<Owned<'a>>,
-    wanted: &Wanted,
-    ledger: &mut Ledger,
-) -> Vec<Owned<'a>> {
+pub(super) fn without_flat<'a>(all: Vec<Owned<'a>>, ledger: &mut Ledger) -> Vec<Owned<'a>> {
     let (flat, kept): (Vec<Owned<'a>>, Vec<Owned<'a>>) =
         all.iter().copied().partition(|(_, solid)| !is_sphere(solid) && is_flat(solid));
-    if wanted.strict || flat.is_empty() || kept.is_empty() {
-        return all;
-    }
     let note = format!("{} solids are flat or tiny, and left out", flat.len());
-    ledger.note_as(Effect::Slight, flat[0].1.place, note);
-    kept
+    let left_out = !flat.is_empty()
+        && !kept.is_empty()
+        && ledger.assume(Effect::Slight, flat[0].1.place, note);
+    if left_out { kept } else { all }
 }
 
 pub(super) fn is_sphere(solid: &Solid) -> bool {
@@ -79,11 +73,10 @@ pub(super) fn stated(
     [low, high]: [f64; 2],
     unit: &str,
     owner: &Body,
-    wanted: &Wanted,
     ledger: &mut Ledger,
 ) -> f64 {
     let kept = value.clamp(low, high);
-    if wanted.strict || kept == value {
+    if kept == value {
         return value;
     }
     let limit = if value < low { "at least" } else { "at most" };
@@ -91,8 +84,7 @@ pub(super) fn stated(
         "`{}` has {value} {unit} in the file; a task has {limit} {kept}, which is used",
         owner.name
     );
-    ledger.note_as(Effect::Strong, owner.place, note);
-    kept
+    if ledger.assume(Effect::Strong, owner.place, note) { kept } else { value }
 }
 
 /// Returns points in the world whose convex hull approximates a solid, metres.

@@ -9,12 +9,12 @@ use super::wanted::Wanted;
 use super::weighed::NOTHING;
 
 /// Returns the model with the bodies of `wanted.free` detached from the world, and with its roots
-/// fixed to it if they are wanted so. If nothing is strict, the only body of a file without joints
-/// is free, and bodies that are only drawn collide.
+/// fixed to it if they are wanted so. The only body of a file without joints is assumed to be free,
+/// and bodies that are only drawn are assumed to collide.
 pub(super) fn freed(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Model {
     let mut model = model.clone();
     ledger.note_all(&model.notes);
-    drawn(&mut model, wanted, ledger);
+    drawn(&mut model, ledger);
     let mut wanted_free = Vec::new();
     for asked in &wanted.free {
         let named = |body: &usize| same(asked, model.name_of(*body));
@@ -47,7 +47,7 @@ pub(super) fn freed(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Mode
         model.rigid(*body).iter().any(|body| model.bodies[*body].solids.iter().any(|s| s.touches))
     };
     let only: Vec<usize> = model.children(0).filter(solid).collect();
-    let plain = wanted_free.is_empty() && !wanted.fixed && !wanted.strict && still;
+    let plain = wanted_free.is_empty() && !wanted.fixed && still;
     if let ([body], true) = (&only[..], plain) {
         // The body that holds the solids has the name of the object.
         let outer = model.rigid(*body);
@@ -62,8 +62,9 @@ pub(super) fn freed(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Mode
             "nothing moves in the file; its only body, `{}`, is taken for a free object",
             model.name_of(body)
         );
-        ledger.note_as(Effect::Strong, model.bodies[body].place, note);
-        wanted_free.push(body);
+        if ledger.assume(Effect::Strong, model.bodies[body].place, note) {
+            wanted_free.push(body);
+        }
     }
     for body in wanted_free {
         model.bodies[body].motion = Motion::Free;
@@ -73,15 +74,14 @@ pub(super) fn freed(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Mode
 }
 
 /// Lets visual shapes collide if no shape of the file does.
-fn drawn(model: &mut Model, wanted: &Wanted, ledger: &mut Ledger) {
+fn drawn(model: &mut Model, ledger: &mut Ledger) {
     let solids = || model.bodies.iter().skip(1).flat_map(|body| &body.solids);
-    if wanted.strict || solids().next().is_none() || solids().any(|solid| solid.touches) {
-        return;
-    }
+    let invisible = solids().next().is_some() && !solids().any(|solid| solid.touches);
     let note = "no shape of the file collides, so its visual shapes do";
-    ledger.note_of_file(Effect::Strong, note);
-    let solids = model.bodies.iter_mut().skip(1).flat_map(|body| &mut body.solids);
-    solids.for_each(|solid| solid.touches = true);
+    if invisible && ledger.assume(Effect::Strong, None, note) {
+        let solids = model.bodies.iter_mut().skip(1).flat_map(|body| &mut body.solids);
+        solids.for_each(|solid| solid.touches = true);
+    }
 }
 
 /// Returns `true` if the mass of an imported body follows from an assumed density.
@@ -122,8 +122,7 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
     let (mut asked_for, mut others) = (Vec::new(), Vec::new());
     let can = |motion: &Motion| *motion == Motion::Free || motion.is_planar() || may_mount(motion);
     // Other movable bodies beside objects are left out, such as a robot.
-    let passes = !wanted.strict
-        && wanted.bodies.is_empty()
+    let passes = wanted.bodies.is_empty()
         && model.bodies.iter().any(|body| {
             let hangs = body.parent.is_some_and(|parent| fixed.contains(&parent));
             hangs && can(&body.motion)
@@ -154,15 +153,13 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
                 ledger.note(body.place, "the tool is not imported here; use `--as tool`");
             }
             motion if may_mount(motion) => found.push(index),
-            motion if passes => {
-                let how = held_by(motion);
-                let note =
-                    format!("`{}` is left out: it is attached to the world by {how}", body.name);
-                ledger.note_as(Effect::Strong, body.place, note);
-            }
             motion => {
-                let how = held_by(motion);
-                let message = format!("`{}` is attached to the world by {how}", body.name);
+                let how = format!("attached to the world by {}", held_by(motion));
+                let note = format!("`{}` is left out: it is {how}", body.name);
+                if passes && ledger.assume(Effect::Strong, body.place, note) {
+                    continue;
+                }
+                let message = format!("`{}` is {how}", body.name);
                 let advice = "objects must be free (--free NAME, a <freejoint/>), rotate about \
                               the vertical or slide along the table; select bodies with --body";
                 ledger.fault(body.place, message, advice);
@@ -200,7 +197,7 @@ pub(super) fn judged(model: &Model, roots: &[usize], wanted: &Wanted, ledger: &m
     // If bodies were selected or left out, only the others can cause faults.
     let left = |index: usize| !chosen.contains(&index) && !model.is_fixed(Some(index));
     let all = wanted.bodies.is_empty()
-        && (wanted.strict || roots.is_empty() || !(1..model.bodies.len()).any(left));
+        && (ledger.is_strict() || roots.is_empty() || !(1..model.bodies.len()).any(left));
     for (index, body) in model.bodies.iter().enumerate() {
         if all || chosen.contains(&index) || model.is_fixed(Some(index)) {
             ledger.note_all(&body.notes);
@@ -263,14 +260,16 @@ pub(super) fn beyond(model: &Model, roots: &[usize], wanted: &Wanted, ledger: &m
             Some(body) => {
                 ledger.fault(*place, names(body), "remove it, or select other bodies with --body")
             }
-            None if bodies.is_none()
-                && wanted.bodies.is_empty()
-                && (wanted.strict || chosen.len() + 1 >= model.bodies.len()) =>
-            {
-                let message = format!("{what} is not supported");
-                ledger.fault(*place, message, "remove it, or select bodies with --body");
+            None => {
+                let ignored = format!("{what} is ignored");
+                let others = chosen.len() + 1 < model.bodies.len();
+                if bodies.is_some() || !wanted.bodies.is_empty() {
+                    ledger.note(*place, ignored);
+                } else if !others || !ledger.assume(Effect::Some, *place, ignored) {
+                    let message = format!("{what} is not supported");
+                    ledger.fault(*place, message, "remove it, or select bodies with --body");
+                }
             }
-            None => ledger.note(*place, format!("{what} is ignored")),
         }
     }
 }

@@ -43,7 +43,7 @@ pub fn objects(
     file: &str,
     wanted: &Wanted,
 ) -> Result<Imported<ImportedScene>, Faults> {
-    let mut ledger = Ledger::new(file, &model.files);
+    let mut ledger = Ledger::new(file, &model.files, model.strict);
     let freed = freed(model, wanted, &mut ledger);
     let model = &freed;
     let roots = free(model, wanted, &mut ledger);
@@ -62,7 +62,7 @@ pub fn objects(
         };
         ledger.fault_of_file("no body of the file moves freely", advice);
     }
-    let assumed = wanted.density.is_none() && !wanted.strict && massless(model, &roots);
+    let assumed = wanted.density.is_none() && !ledger.is_strict() && massless(model, &roots);
     let wanted = &match assumed {
         true => Wanted { density: Some(Wanted::DENSITY), ..wanted.clone() },
         false => wanted.clone(),

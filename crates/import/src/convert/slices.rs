@@ -28,14 +28,14 @@ const DIRECTIONS: usize = 24;
 const LEVEL: f64 = 3e-4;
 
 /// Maximum number of slices of a solid.
-const MOST: usize = 4;
+const MOST: usize = 6;
 
 /// Maximum number of triangles of a mesh that is divided itself, instead of its hull.
 const MANY: usize = 200_000;
 
 /// Difference of outlines within a slice that is accepted, metres, and relative to the width.
 const EVEN: f64 = 1.5e-3;
-const EVENLY: f64 = 0.03;
+const EVENLY: f64 = 0.02;
 
 /// Replaces the meshes of movable bodies whose outline grows with height by slices.
 pub(super) fn sliced(model: &mut Model, roots: &[usize], wanted: &Wanted, ledger: &mut Ledger) {

@@ -167,18 +167,17 @@ pub(super) fn statics<'a>(
                  underside"
             );
             ledger.note(solid.place, note);
-        } else if z < floor - STAND && !wanted.strict {
-            let by = 1e3 * (floor - z);
-            let note =
-                format!("the objects are {by:.0} mm above the plane; they were lowered onto it");
-            ledger.note_as(Effect::Strong, solid.place, note);
         } else if (z - floor).abs() > STAND {
             let (side, by) = if z < floor { ("above", floor - z) } else { ("below", z - floor) };
             let by = 1e3 * by;
-            let message =
-                format!("the objects are {by:.1} mm {side} this plane and stand on no table");
-            ledger.fault(solid.place, message, "move them onto it");
-            return None;
+            let note =
+                format!("the objects are {by:.0} mm above the plane; they were lowered onto it");
+            if z > floor || !ledger.assume(Effect::Strong, solid.place, note) {
+                let message =
+                    format!("the objects are {by:.1} mm {side} this plane and stand on no table");
+                ledger.fault(solid.place, message, "move them onto it");
+                return None;
+            }
         }
         found.table = Some(solid);
     }
@@ -317,13 +316,13 @@ fn obstacle<'a>(
     });
     if let Some(draft) = within {
         let name = &draft.object.name;
-        if wanted.bodies.is_empty() && wanted.strict {
+        let note = format!("`{what}` is ignored, because its bounding box contains `{name}`");
+        if !wanted.bodies.is_empty() {
+            ledger.note_as(Effect::Strong, solid.place, note);
+        } else if !ledger.assume(Effect::Strong, solid.place, note) {
             let message = format!("`{what}` is not a box, and its bounding box contains `{name}`");
             let advice = "replace it by several boxes; with --body it is ignored";
             ledger.fault(solid.place, message, advice);
-        } else {
-            let note = format!("`{what}` is ignored, because its bounding box contains `{name}`");
-            ledger.note_as(Effect::Strong, solid.place, note);
         }
         return None;
     }

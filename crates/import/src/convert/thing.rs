@@ -48,7 +48,7 @@ pub(super) fn of_group<'a>(
     // Files written by pushplan have feet.
     let all = match model.ours {
         true => all,
-        false => without_points(without_flat(all, wanted, ledger), ledger),
+        false => without_points(without_flat(all, ledger), ledger),
     };
     let mut solids: Vec<Owned<'a>> =
         all.iter().copied().filter(|(_, solid)| !is_sphere(solid)).collect();
@@ -100,7 +100,7 @@ pub(super) fn of_group<'a>(
         ledger.fault(owner.place, message, advice);
         return Vec::new();
     }
-    let mass = stated(weighed.0, [MASS, f64::INFINITY], "kg", owner, wanted, ledger);
+    let mass = stated(weighed.0, [MASS, f64::INFINITY], "kg", owner, ledger);
     let weighed = (mass, weighed.1, weighed.2);
     let name = names.take(if single { &model.bodies[found[0].2].name } else { &owner.name });
     let place = found[0].0.solid.place;
@@ -110,7 +110,7 @@ pub(super) fn of_group<'a>(
             .collect();
     };
     let friction = standing.solid.material.friction.unwrap_or(wanted.friction);
-    let friction = stated(friction, FRICTIONS, "of friction", owner, wanted, ledger);
+    let friction = stated(friction, FRICTIONS, "of friction", owner, ledger);
     let drafted = draft(&name, &standing, weighed, friction, ledger);
     let Standing { solid, feet, .. } = standing;
     let drafted = drafted.map(|(object, low)| Draft {
@@ -231,7 +231,7 @@ fn compound<'a>(
     // Standing solids come first.
     pieces.sort_by_key(|(piece, _)| piece.upright.low - low > HANGS);
     let friction = pieces[0].0.solid.material.friction.unwrap_or(wanted.friction);
-    let friction = stated(friction, FRICTIONS, "of friction", &model.bodies[group], wanted, ledger);
+    let friction = stated(friction, FRICTIONS, "of friction", &model.bodies[group], ledger);
     let other = pieces.iter().map(|(piece, _)| piece.solid.material.friction);
     if other.flatten().any(|other| other != friction) {
         let note = format!("solids of `{name}` have several frictions; {friction} is used for all");

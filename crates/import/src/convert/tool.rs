@@ -24,7 +24,7 @@ const LEVEL: f64 = 1e-3;
 /// # Errors
 /// Returns a fault for every element that pushplan cannot express, with its place in `file`.
 pub fn tool(model: &Model, file: &str, wanted: &Wanted) -> Result<Imported<Tool>, Faults> {
-    let mut ledger = Ledger::new(file, &model.files);
+    let mut ledger = Ledger::new(file, &model.files, model.strict);
     ledger.note_all(&model.notes);
     let joined = joined(model);
     let model = &joined;

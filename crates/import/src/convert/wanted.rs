@@ -12,8 +12,6 @@ pub struct Wanted {
     /// Whether free bodies to which others are jointed are fixed to the world, like a cabinet
     /// against a wall.
     pub fixed: bool,
-    /// Whether nothing is assumed, so that what a file leaves open is a fault.
-    pub strict: bool,
     /// Density of bodies that state no mass, kg/m^3.
     pub density: Option<f64>,
     /// Name of the tool or task; by default from the file.
@@ -43,7 +41,6 @@ impl Default for Wanted {
             bodies: Vec::new(),
             free: Vec::new(),
             fixed: false,
-            strict: false,
             density: None,
             name: None,
             friction: Self::FRICTION,

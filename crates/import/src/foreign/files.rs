@@ -1,5 +1,5 @@
 //! Access to files that a file names: only in its folder or below, unless a root folder is given.
-//! Meshes may also lie up to three folders above, unless nothing may be assumed.
+//! Meshes may also be found up to three folders above.
 
 use std::io::{ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
@@ -37,8 +37,6 @@ pub struct Files {
     root: Option<PathBuf>,
     /// Whether the root was given, and is not just the folder of the file.
     given: bool,
-    /// Whether meshes may also lie in folders around the file.
-    around: bool,
     /// The file and its chain of including files.
     trail: Vec<PathBuf>,
     /// Number of files found so far that name further files.
@@ -54,25 +52,14 @@ impl Files {
         let root = root.map_or_else(|| folder.clone(), Path::to_path_buf);
         let trail = path.canonicalize().into_iter().collect();
         let (folder, root) = (Some(folder), Some(root));
-        Self { folder, root, given, around: false, trail, entered: Arc::default() }
+        Self { folder, root, given, trail, entered: Arc::default() }
     }
 
-    /// Allows meshes in folders around the file, within the root if one was given.
-    pub fn around(self) -> Self {
-        Self { around: true, ..self }
-    }
-
-    /// Finds the mesh `name`, optionally in the folder `base` that the file states. Returns `true`
-    /// with it if it lies elsewhere than the file states, or outside its folder.
-    pub fn mesh(&self, base: &str, name: &str) -> Result<(PathBuf, bool), Refused> {
-        let refused = match self.find(base, name) {
-            Ok(path) => return Ok((path, false)),
-            Err(refused) => refused,
-        };
-        let folder = self.folder.as_ref().filter(|_| self.around && !Path::new(name).is_absolute());
-        let Some(folder) = folder.and_then(|folder| folder.canonicalize().ok()) else {
-            return Err(refused);
-        };
+    /// Finds the mesh `name` in folders around the file, within the root if one was given, although
+    /// the file states the folder `base`.
+    pub fn around(&self, base: &str, name: &str) -> Option<PathBuf> {
+        let folder = self.folder.as_ref().filter(|_| !Path::new(name).is_absolute());
+        let folder = folder?.canonicalize().ok()?;
         // The root folder of the file system is not a package.
         let above: Vec<&Path> =
             folder.ancestors().take(ABOVE + 1).filter(|above| above.parent().is_some()).collect();
@@ -91,8 +78,6 @@ impl Files {
             .chain(places)
             .filter_map(|path| path.canonicalize().ok())
             .find(allowed)
-            .map(|path| (path, true))
-            .ok_or(refused)
     }
 
     /// Returns the access for another file that was found; `None` if the chain is circular or too

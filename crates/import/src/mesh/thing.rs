@@ -7,7 +7,7 @@ use std::sync::Arc;
 use nalgebra::{Isometry3, Point3};
 
 use crate::convert::is_convex_above;
-use crate::diagnostic::{Effect, Note};
+use crate::diagnostic::{Effect, Ledger};
 use crate::model::{Body, Material, Model, Motion, Outline, Place, Solid};
 use crate::{Language, Reading};
 use pushplan::asset::{Fault, Faults};
@@ -53,14 +53,11 @@ pub(crate) fn language(path: &Path) -> Option<Language> {
 pub(crate) fn model(path: &Path, reading: &Reading) -> Result<Model, Faults> {
     let file = path.display().to_string();
     let fault = |message: String, advice: &str| Fault::of_file(&file, message, advice);
-    let mut notes = Vec::new();
-    let mut note = |effect: Effect, message: String| {
-        notes.push(Note { effect, at: file.clone(), message });
-    };
+    let mut ledger = Ledger::new(&file, &[], reading.strict);
     let (mut points, faces) =
         load_upright(path).map_err(|refused| fault(refused.message, &refused.advice))?;
     let unit =
-        unit(&points, reading, &mut note).map_err(|(message, advice)| fault(message, &advice))?;
+        unit(&points, reading, &mut ledger).map_err(|(message, advice)| fault(message, &advice))?;
     points.iter_mut().for_each(|point| *point *= unit);
     let side = longest(&points);
     let whole = solid((points, faces), side);
@@ -73,26 +70,27 @@ pub(crate) fn model(path: &Path, reading: &Reading) -> Result<Model, Faults> {
     let meshes = if count > 1 { pieces } else { vec![whole] };
     if count > 1 {
         let message = format!("the file has {count} separate solids, which become separate bodies");
-        note(Effect::Some, message);
+        ledger.note_of_file(Effect::Some, message);
     }
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut bodies = vec![Body::world()];
     for (k, mesh) in meshes.into_iter().enumerate() {
         if !mesh.is_closed() {
             let message = "the mesh is not closed, so the volume of its convex hull is used";
-            note(Effect::Some, message.to_owned());
+            ledger.note_of_file(Effect::Some, message);
         }
         let name = if k == 0 { name.clone() } else { format!("{name}-{}", k + 1) };
         bodies.push(body(name, mesh));
     }
-    Ok(Model { name, files: vec![file], bodies, notes, pieces: count > 1, ..Model::default() })
+    let (pieces, strict, notes) = (count > 1, reading.strict, ledger.notes_since(0));
+    Ok(Model { name, files: vec![file], bodies, notes, pieces, strict, ..Model::default() })
 }
 
 /// Returns the unit of a mesh, metres, with a note if it is assumed; or the fault and its advice.
 fn unit(
     points: &[Point3<f64>],
     reading: &Reading,
-    note: &mut impl FnMut(Effect, String),
+    ledger: &mut Ledger,
 ) -> Result<f64, (String, String)> {
     let stated = reading.unit.unwrap_or(1.0);
     let side = longest(points);
@@ -107,18 +105,14 @@ fn unit(
     let is_likely = |(_, unit): &&(&str, f64)| {
         (LIKELY[0]..=LIKELY[1]).contains(&(side * unit)) && *unit != stated
     };
-    match UNITS.iter().find(is_likely) {
-        Some((word, unit)) if reading.unit.is_none() && !reading.strict => {
-            let message = format!("{message}: it is taken for {word}, {:.3} m", side * unit);
-            note(Effect::Strong, message);
-            Ok(*unit)
-        }
-        Some((word, unit)) => {
-            let advice = format!("give its unit: --unit {word} makes it {:.3} m", side * unit);
-            Err((message, advice))
-        }
-        None => Err((message, "give its unit: --unit mm, cm, m or in".to_owned())),
+    let Some((word, unit)) = UNITS.iter().find(is_likely) else {
+        return Err((message, "give its unit: --unit mm, cm, m or in".to_owned()));
+    };
+    let note = format!("{message}: it is taken for {word}, {:.3} m", side * unit);
+    if reading.unit.is_none() && ledger.assume(Effect::Strong, None, note) {
+        return Ok(*unit);
     }
+    Err((message, format!("give its unit: --unit {word} makes it {:.3} m", side * unit)))
 }
 
 /// Returns the mesh of triangles; the convex hull has its volume if it is not closed.

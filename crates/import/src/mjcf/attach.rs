@@ -40,7 +40,7 @@ impl Models {
             return source.fault(node, message, "is this the right file?");
         };
         let shown = path.display().to_string();
-        let found = parsed(&text, &shown, &inner);
+        let found = parsed(&text, &shown, &inner, source.ledger.is_strict());
         let found = found.map(|(mut model, _)| {
             let first = source.ledger.more_files(&model.files);
             let moved = |place: &mut Place| place.file += first;

@@ -149,11 +149,9 @@ impl<'a> Meshes<'a> {
                     false => file.value().to_owned(),
                 };
                 let Compiler { meshes, assets, .. } = &context.compiler;
-                let found = self.files.mesh(meshes.as_ref().unwrap_or(assets), &name);
-                if let Ok((path, true)) = &found {
-                    source.elsewhere(mesh, &name, path);
-                }
-                match found.and_then(|(path, _)| load(&path)) {
+                let base = meshes.as_ref().unwrap_or(assets);
+                let found = source.mesh(mesh, (self.files, base), &name);
+                match found.and_then(|path| load(&path)) {
                     Ok(raw) => raw,
                     Err(refused) => {
                         let what = format!("{} ({})", refused.message, refused.advice);

@@ -64,8 +64,8 @@ impl Place {
     pub fn fresh(table: &Published, body: String, age: &Age, now: &Fingerprint) -> Self {
         let Age { commit, date, minutes, machine } = age;
         let measured = format!(
-            "{commit} on {date} in {minutes} min, {machine}; n = {} {}, standard error of a share \
-             \u{2264} {:.1} points. {INPUTS}{}.",
+            "{commit} on {date} in {minutes} min, {machine};\nn = {} {}, standard error of a share \
+             \u{2264} {:.1} points.\n{INPUTS}{}.",
             table.count,
             table.unit,
             table.standard_error(),

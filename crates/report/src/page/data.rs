@@ -56,6 +56,9 @@ pub struct Stage {
     pub table: Option<[[i64; 2]; 2]>,
     /// Smallest and largest reach.
     pub reach: Vec<i64>,
+    /// Centre of the reach, unless it is the origin.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub base: Option<[i64; 2]>,
     /// Goals; empty for a recording.
     pub goals: Vec<Goal>,
 }

@@ -5,7 +5,7 @@ use serde_json::Value as Json;
 use crate::plan_text::goal_line;
 use pushplan::geometry::{Footprint, Shape, Vector};
 use pushplan::{
-    scene::{self, Blade, Carried, Plate, Robot, SHOWN_HAND, Scene, Slab},
+    scene::{self, Annulus, Blade, Carried, Plate, Robot, SHOWN_HAND, Scene, Slab},
     task::{self, Mark, Plan, ShownGoal, Task},
 };
 
@@ -15,8 +15,10 @@ use super::data::{Arc, Area, Band, Body, Goal, Outline, Stage, Tool, fine, lengt
 pub fn stage(task: &Task) -> Stage {
     let shown = task.shown_goals();
     let goal = |goal: &ShownGoal| drawn(goal, task);
+    let Annulus { centre, radii } = task.annulus();
     Stage {
-        reach: [task.robot.reach_min, task.robot.reach_max].map(length).to_vec(),
+        reach: radii.map(length).to_vec(),
+        base: Some(point(centre)).filter(|base| *base != [0, 0]),
         goals: shown.iter().map(goal).collect(),
         ..table(&task.scene)
     }
@@ -132,6 +134,7 @@ pub fn table(scene: &Scene) -> Stage {
         regions: regions.collect(),
         table: scene.table_top.map(|top| [point(top.middle), top.size.map(length)]),
         reach: Vec::new(),
+        base: None,
         goals: Vec::new(),
     }
 }

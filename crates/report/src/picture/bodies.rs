@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::svg::{Anchor, Font, Style, Svg};
 use pushplan::geometry::{Pose, Shape, Vector, wrap_angle};
 use pushplan::{
-    scene::{Object, Robot, Scene},
+    scene::{Annulus, Object, Scene},
     task::{Mark, ShownGoal, Swing},
 };
 
@@ -20,12 +20,13 @@ const STILL_TURN: f64 = 0.01;
 const ARC_STEP: f64 = 0.05;
 
 /// Draws the annulus within reach of the end effector, with the robot's base in its centre.
-pub fn reach(svg: &mut Svg, view: &View, robot: &Robot) {
-    let base = view.map(Vector::zeros());
-    svg.circle(base, view.length(robot.reach_max), palette::REACH_AREA);
-    svg.circle(base, view.length(robot.reach_max), palette::REACH_RIM);
-    svg.circle(base, view.length(robot.reach_min), Style::fill("#fbfcfd"));
-    svg.circle(base, view.length(robot.reach_min), palette::REACH_RIM);
+pub fn reach(svg: &mut Svg, view: &View, annulus: &Annulus) {
+    let base = view.map(annulus.centre);
+    let [near, far] = annulus.radii.map(|radius| view.length(radius));
+    svg.circle(base, far, palette::REACH_AREA);
+    svg.circle(base, far, palette::REACH_RIM);
+    svg.circle(base, near, Style::fill("#fbfcfd"));
+    svg.circle(base, near, palette::REACH_RIM);
     svg.circle(base, 4.0, Style::fill(palette::INK));
     let font = Font::new(11.0, palette::FAINT_INK).anchored(Anchor::Middle).halo();
     svg.text(base + Vector::new(0.0, 18.0), "robot", font);

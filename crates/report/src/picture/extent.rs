@@ -1,9 +1,8 @@
 //! Bounding box of a picture's content on the table.
 
-use pushplan::geometry::Vector;
 use pushplan::{
     outcome::Trajectory,
-    scene::{Robot, Scene},
+    scene::{Annulus, Scene},
     task::{Mark, ShownGoal, ToolMotion},
 };
 
@@ -17,7 +16,7 @@ const FOLLOW: f64 = 1.0;
 pub struct Extent<'a> {
     pub scene: &'a Scene,
     pub goals: Vec<ShownGoal>,
-    pub robot: Option<&'a Robot>,
+    pub reach: Option<Annulus>,
     pub motions: &'a [ToolMotion],
     pub trajectories: Vec<&'a Trajectory>,
 }
@@ -47,8 +46,8 @@ impl Extent<'_> {
                 }
             }
         }
-        if let Some(robot) = self.robot {
-            bounds.add(Vector::zeros(), robot.reach_min);
+        if let Some(Annulus { centre, radii: [near, _] }) = self.reach {
+            bounds.add(centre, near);
         }
         self.motions.iter().for_each(|motion| self.add_motion(&mut bounds, motion));
         let near = bounds;

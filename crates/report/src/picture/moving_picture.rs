@@ -82,7 +82,7 @@ impl MovingPicture<'_> {
 
     fn plot(&self, stage: &mut Stage) {
         let view = stage.view;
-        bodies::reach(&mut stage.svg, &view, &self.task.robot);
+        bodies::reach(&mut stage.svg, &view, &self.task.annulus());
         view.grid_lines(&mut stage.svg);
         for goal in &self.task.shown_goals() {
             bodies::goal_area(&mut stage.svg, &view, goal);
@@ -231,7 +231,7 @@ impl MovingPicture<'_> {
         Extent {
             scene: &self.task.scene,
             goals: self.task.shown_goals(),
-            robot: Some(&self.task.robot),
+            reach: Some(self.task.annulus()),
             motions: self.motions,
             trajectories: vec![self.trajectory],
         }

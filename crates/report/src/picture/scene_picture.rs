@@ -6,7 +6,7 @@ use crate::svg::{Font, Style, Svg};
 use pushplan::geometry::{Pose, Vector};
 use pushplan::{
     outcome::Trajectory,
-    scene::{Engine, Robot, Scene},
+    scene::{Annulus, Engine, Scene},
     task::{Mark, ShownGoal, ToolMotion},
 };
 
@@ -66,8 +66,8 @@ pub struct ScenePicture<'a> {
     pub scene: &'a Scene,
     /// Goals, whose objects are highlighted.
     pub goals: Vec<ShownGoal>,
-    /// Robot whose reach is drawn.
-    pub robot: Option<&'a Robot>,
+    /// Annulus within reach of the robot.
+    pub reach: Option<Annulus>,
     /// Motions drawn as tool outlines and push arrows.
     pub motions: &'a [ToolMotion],
     /// Paths and ends of the objects; later ones are drawn over earlier ones.
@@ -104,16 +104,16 @@ impl ScenePicture<'_> {
         Extent {
             scene: self.scene,
             goals: self.goals.clone(),
-            robot: self.robot,
+            reach: self.reach,
             motions: self.motions,
             trajectories: self.tracks.iter().map(|track| track.trajectory).collect(),
         }
     }
 
     fn plot(&self, svg: &mut Svg, view: &View) {
-        if let Some(robot) = self.robot {
+        if let Some(reach) = &self.reach {
             svg.open_clipped("table", view.corner, view.size);
-            bodies::reach(svg, view, robot);
+            bodies::reach(svg, view, reach);
             svg.close();
         }
         view.grid(svg);
@@ -227,8 +227,8 @@ impl ScenePicture<'_> {
             add(Sample::Push, "push of the end effector".to_owned());
         }
         bodies::legend_of_fixed(self.scene).for_each(|(sample, words)| add(sample, words));
-        if let Some(robot) = self.robot {
-            let words = format!("reach, {:.2} to {:.2} m", robot.reach_min, robot.reach_max);
+        if let Some(Annulus { radii: [near, far], .. }) = self.reach {
+            let words = format!("reach, {near:.2} to {far:.2} m");
             add(Sample::Ring(palette::REACH_RIM), words);
         }
         entries

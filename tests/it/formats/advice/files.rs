@@ -1,9 +1,8 @@
 //! Files that a file names.
 
-use pushplan_import::Reading;
+use pushplan_import::{Reading, Wanted};
 
-use super::super::kinds::all;
-use super::super::meshes::{cube, taken_of};
+use super::super::meshes::{cube, strict, taken_of};
 
 /// Files by name, of which the first is imported, and the root folder.
 type Folder<'a> = (&'a [(&'a str, &'a str)], Option<&'a str>);
@@ -14,11 +13,7 @@ fn helped(refused: Folder<'_>, advice: &str, followed: Folder<'_>) {
     let taken = |(files, root): Folder<'_>| {
         let texts = files.iter().map(|(name, text)| (*name, text.as_bytes()));
         let files: Vec<(&str, &[u8])> = texts.chain([("parts/cube.obj", &solid[..])]).collect();
-        taken_of(
-            &files,
-            &Reading { root: root.map(Into::into), strict: true, ..Reading::default() },
-            &all(),
-        )
+        taken_of(&files, &Reading { root: root.map(Into::into), ..strict() }, &Wanted::default())
     };
     let fault = taken(refused).expect_err(advice);
     assert!(fault.contains(advice), "{advice}\nnot in\n{fault}");

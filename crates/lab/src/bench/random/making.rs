@@ -181,15 +181,15 @@ fn draw(
 /// Returns the first push, if it is feasible from the start.
 fn first_push(workspace: &Workspace, candidate: &Candidate) -> Option<Push> {
     let (start, planned) = (workspace.task.scene.start(), candidate.pushes.first()?);
-    let from = workspace.place(&start, planned, None).ok()?;
+    let placement = workspace.place(&start, planned, None).ok()?;
     let push = Push {
-        start: from,
+        start: placement.start,
         direction: planned.direction,
         length: planned.length,
         speed: workspace.task.pushes.speed,
     };
     workspace
-        .margins(planned.grip(), (&start, planned.object), &push, Some(0.0))
+        .margins(planned.grip(), (&start, planned.object), &push, Some(placement))
         .violation()
         .is_none()
         .then_some(push)

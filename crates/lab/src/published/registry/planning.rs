@@ -69,7 +69,7 @@ pub const TABLES: &[Published] = &[
         "python examples/pushworld.py --out runs/pushworld", &[
             ("", ALL, &["solved"]),
         ]),
-    table("robot-arms", "robot-arms.md", (15, 39, "tasks an arm"), PLANS,
+    table("robot-arms", "robot-arms.md", (15, 49, "tasks an arm"), PLANS,
         "python crates/lab/benches/arms.py --effort draft --out runs/arms", &[
             ("", ALL, &["pinocchio_agrees"]),
         ]),

@@ -21,7 +21,7 @@ fn jointed_picture_of(ends: Vec<Pose>, joints: Vec<Joint>) -> String {
         notes: Vec::new(),
         scene: &scene,
         goals: Vec::new(),
-        robot: None,
+        reach: None,
         motions: &[],
         tracks: vec![Track { source: Source::Predicted, trajectory: &trajectory }],
     }
@@ -66,7 +66,7 @@ fn picture(name: &str) -> String {
         notes: Vec::new(),
         scene: &task.scene,
         goals: task.shown_goals(),
-        robot: None,
+        reach: None,
         motions: &[],
         tracks: Vec::new(),
     }
