@@ -9,10 +9,14 @@ file uses metres:
 - an object of n cells is n times 80 mm minus 16 mm long, so that 8 mm of play remain on each side;
 - the tool is a plate that fits into one cell and is set down from above; shape and position of the
   agent are therefore ignored, and walls for the agent alone become keep-out regions of the plate;
+- with `--as-played` the tool is the agent: it begins at its cells, stays down, and each push starts
+  where the last one ended;
 - an object is at its goal within 30 mm and 20 degrees.
 
     python examples/pushworld.py "At Crossroads.pwp" --out puzzles
     pushplan solve puzzles/at-crossroads.yaml --more-tools puzzles/tools
+    python examples/pushworld.py "At Crossroads.pwp" --as-played --out played
+    pushplan solve played/at-crossroads.yaml --more-tools played/tools
 """
 
 import argparse
@@ -192,8 +196,10 @@ class Table:
         return found
 
 
-def task_of(text: str, name: str, pushes: int = 6) -> pushplan.Task:
-    """Converts a puzzle to a task."""
+def task_of(
+    text: str, name: str, pushes: int = 32, agent: pushplan.Tool | None = None
+) -> pushplan.Task:
+    """Converts a puzzle to a task, for the plate or as played by its agent."""
     cells, (rows, columns) = read(text)
     table = Table(rows, columns)
     movables = sorted((one for one in cells if one.startswith("M")), key=lambda one: int(one[1:]))
@@ -202,6 +208,11 @@ def task_of(text: str, name: str, pushes: int = 6) -> pushplan.Task:
         largest = solids(cells[goal])[0]
         at = {"object": "m" + goal[1:], "position": table.place(largest)[0], "tolerance": 0.03}
         goals.append({**at, "heading_deg": 0, "heading_tolerance_deg": 20})
+    robot: dict[str, Any] = {"reach": {"min": 0, "max": 9}, "base": "none"}
+    rules: dict[str, Any] = {"length": 0.5, "max_count": pushes, "grip_yaws_deg": [0, 90]}
+    if agent:
+        robot["home"] = table.place(solids(cells["A"])[0])[0]
+        rules |= {"form": "chained", "grip_yaws_deg": [0]}
     task: dict[str, Any] = {
         "name": name,
         "description": "A puzzle of PushWorld.",
@@ -210,14 +221,34 @@ def task_of(text: str, name: str, pushes: int = 6) -> pushplan.Task:
             "objects": [table.movable(one.lower(), cells[one]) for one in movables],
             "obstacles": table.walls(cells.get("W", set())),
         },
-        "robot": {"reach": {"min": 0, "max": 9}, "base": "none"},
-        "tools": ["plate"],
-        "pushes": {"length": 0.5, "max_count": pushes, "grip_yaws_deg": [0, 90]},
+        "robot": robot,
+        "tools": [agent.name if agent else "plate"],
+        "pushes": rules,
         "goal": goals[0] if len(goals) == 1 else goals,
     }
     if "AW" in cells:
         task["keep_out"] = table.closed(cells["AW"])
     return pushplan.Task.from_dict(task)  # type: ignore[arg-type]
+
+
+def agent_of(text: str, name: str) -> pushplan.Tool:
+    """Returns the agent of a puzzle as a tool, with the end effector at its largest rectangle."""
+    cells, (rows, columns) = read(text)
+    if not cells.get("A"):
+        raise ValueError("the puzzle has no agent `A`, so that it cannot be played")
+    table = Table(rows, columns)
+    found = [table.place(one) for one in solids(cells["A"])]
+    home = found[0][0]
+    parts = [
+        {
+            "name": f"part-{k + 1}",
+            "size": [round(extent - 2 * PLAY, 4) for extent in extents] + [HEIGHT],
+            "position": [round(at - base, 4) for at, base in zip(middle, home, strict=True)],
+        }
+        for k, (middle, extents) in enumerate(found)
+    ]
+    described = {"name": f"agent-of-{name}", "friction": 0.3, "parts": parts}
+    return pushplan.Tool.from_dict({**described, "description": "The agent of a puzzle."})
 
 
 def main() -> None:
@@ -226,15 +257,21 @@ def main() -> None:
         "puzzles", nargs="*", type=Path, help="puzzle files; by default a built-in puzzle"
     )
     parser.add_argument("--out", type=Path, default=Path("pushworld"), help="folder for the files")
-    parser.add_argument("--pushes", type=int, default=6, help="maximum number of pushes of a plan")
+    parser.add_argument("--pushes", type=int, default=32, help="maximum number of pushes of a plan")
+    parser.add_argument(
+        "--as-played", action="store_true", help="play with the agent, which stays down"
+    )
     chosen = parser.parse_args()
     for path in chosen.puzzles:
         name = re.sub(r"[^a-z0-9]+", "-", path.stem.lower())
-        task = task_of(path.read_text(), name, chosen.pushes)
+        text = path.read_text()
+        agent = agent_of(text, name) if chosen.as_played else None
+        task = task_of(text, name, chosen.pushes, agent)
         file = chosen.out / f"{name}.yaml"
         (chosen.out / "tools").mkdir(parents=True, exist_ok=True)
+        tool = agent or PLATE
         # JSON is also YAML.
-        (chosen.out / "tools/plate.yaml").write_text(json.dumps(PLATE.to_dict(), indent=1))
+        (chosen.out / f"tools/{tool.name}.yaml").write_text(json.dumps(tool.to_dict(), indent=1))
         file.write_text(task.to_yaml())
         print(file)
     if not chosen.puzzles:

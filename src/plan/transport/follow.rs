@@ -2,23 +2,25 @@
 //! the state left by the previous pushes.
 
 use std::collections::VecDeque;
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
 
 use crate::effect::EffectModel;
 use crate::geometry::{Footprint, Vector};
 use crate::plan::uncertainty::{Uncertainty, room};
 use crate::plan::{
-    Candidate, CandidatePush, Evaluation, RefineSettings, RefineStatistics, Rollouts, Search,
-    SearchSettings, Workspace, kinds, refine,
+    Candidate, CandidatePush, Evaluation, MIN_LENGTH, RefineSettings, RefineStatistics, Rollouts,
+    Search, SearchSettings, Start, Workspace, kinds, refine,
 };
 use crate::progress::Progress;
 use crate::{
     outcome::Record,
     scene::{Scene, Situation, State},
-    task::{Directions, Goal, PushRules, Task},
+    task::{Directions, Goal, Push, PushRules, Task, ToolMotion},
 };
 
-use super::reach::{Groups, Leg, Transport};
-use super::sequence::Failed;
+use super::legs::{Failed, Leg};
+use super::reach::{Groups, Transport};
 
 /// Tolerance of an object's position at the end of a leg, metres. An object further off would not
 /// pass the next gap.
@@ -38,6 +40,9 @@ const RETRIES: usize = 16;
 
 /// Score at which a plan counts as complete, because refinement can correct the rest.
 const ARRIVED: f64 = 1.5;
+
+/// Number of rollouts with which a push of a tool that stays down is corrected.
+const CORRECTIONS: usize = 3;
 
 /// Motion of other objects other than planned that counts as one unit of the score, metres.
 const BESIDE: f64 = 0.02;
@@ -95,6 +100,8 @@ struct Station {
     others: Vec<State>,
     /// Number of pushes so far.
     pushes: usize,
+    /// Position of the end effector.
+    tool: Vector,
 }
 
 impl Follow<'_> {
@@ -109,8 +116,15 @@ impl Follow<'_> {
     ) -> Followed {
         let spread = Uncertainty::around(self.situation);
         let start = self.situation.start.clone();
-        let mut way =
-            vec![(Station { state: start, others: spread.starts().to_vec(), pushes: 0 }, None)];
+        let mut way = vec![(
+            Station {
+                state: start,
+                others: spread.starts().to_vec(),
+                pushes: 0,
+                tool: self.workspace.task.robot.home,
+            },
+            None,
+        )];
         let mut candidate = Candidate::default();
         let mut open: VecDeque<Leg> = legs.to_vec().into();
         let (mut failed, mut retries) = (Vec::new(), 0);
@@ -135,7 +149,7 @@ impl Follow<'_> {
                     open.clear();
                     // After other pushes, the legs no longer begin where objects are.
                     if planned == way.len() {
-                        failed.push(failure(&leg, lost));
+                        failed.push(Failed::of(&leg, lost == Lost::Off));
                     }
                 }
             }
@@ -147,7 +161,7 @@ impl Follow<'_> {
                 if let Some(legs) = self.replanned(station, &failed) {
                     (open, planned) = (legs.into(), way.len());
                 } else if let Some(leg) = leg {
-                    failed.push(failure(leg, Lost::Off));
+                    failed.push(Failed::of(leg, true));
                     way.pop();
                 } else {
                     break;
@@ -170,7 +184,8 @@ impl Follow<'_> {
     fn replanned(&self, station: &Station, failed: &[Failed]) -> Option<Vec<Leg>> {
         let now = Situation { start: station.state.clone(), ..self.situation.clone() };
         let groups = Groups::of(&self.workspace, &now)?;
-        let transport = Transport::new(self.workspace, &now, &groups, self.tool, self.longest)?;
+        let transport =
+            Transport::new(self.workspace, &now, &groups, self.tool, (station.tool, self.longest))?;
         let most = self.most.checked_sub(station.pushes).filter(|most| *most > 0)?;
         let legs = transport.legs_without(failed, most, 1).pop()?;
         (!legs.is_empty()).then_some(legs)
@@ -192,6 +207,9 @@ impl Follow<'_> {
         progress: &dyn Progress,
     ) -> Result<(Vec<CandidatePush>, Station), Lost> {
         let now = Situation { start: station.state.clone(), ..self.situation.clone() };
+        if !self.workspace.is_placed() {
+            return self.chained(leg, station, now, used);
+        }
         let (tool, grip_yaw) = leg.pair;
         let task = towards(self.workspace.task, leg, &now, grip_yaw);
         let own = Workspace { task: &task, tools: &self.workspace.tools[tool..=tool] };
@@ -219,8 +237,98 @@ impl Follow<'_> {
             others: ends.iter().map(|end| end.outcome().clone()).collect(),
             pushes: station.pushes + pushes.len(),
             state: best.outcome,
+            tool: station.tool,
         };
         Ok((pushes, station))
+    }
+
+    /// Returns the pushes of a tool that stays down along a leg: its way, then the push.
+    fn chained(
+        &self,
+        leg: &Leg,
+        station: &Station,
+        now: Situation,
+        used: &mut usize,
+    ) -> Result<(Vec<CandidatePush>, Station), Lost> {
+        let (rules, (tool, grip_yaw)) = (&self.workspace.task.pushes, leg.pair);
+        let ahead = Vector::new(leg.direction.cos(), leg.direction.sin());
+        let task = towards(self.workspace.task, leg, &now, grip_yaw);
+        let mut more = 0.0;
+        let mut best: Option<(f64, Vec<Push>, State)> = None;
+        for _ in 0..CORRECTIONS {
+            let mut way = Way { at: station.tool, pushes: Vec::new(), rules };
+            leg.travel.iter().for_each(|corner| way.go_to(*corner));
+            let end = leg.to + leg.contact + ahead * more;
+            way.go((end - way.at).dot(&ahead), leg.direction);
+            let pushes = way.pushes;
+            if pushes.is_empty() {
+                return Err(Lost::Infeasible);
+            }
+            let tools = Arc::clone(&self.workspace.tools[tool]);
+            let motion = ToolMotion::pushes(tools, rules.lift, grip_yaw, &pushes, true);
+            let mut rollouts = Rollouts::new(self.model, now.clone());
+            let jobs = [rollouts.job(motion, now.start.clone())];
+            let outcome = rollouts.run(&jobs, Record::Outcome).remove(0).outcome().clone();
+            *used += rollouts.used();
+            let (score, short) =
+                (task.score(&outcome), (leg.to - outcome.poses[leg.object].position).dot(&ahead));
+            more += short;
+            if best.as_ref().is_none_or(|(known, ..)| score < *known) {
+                best = Some((score, pushes, outcome));
+            }
+        }
+        let (score, pushes, state) = best.ok_or(Lost::Infeasible)?;
+        if score > LOST {
+            return Err(Lost::Off);
+        }
+        let planned = |push: &Push| CandidatePush {
+            tool,
+            grip_yaw,
+            object: leg.object,
+            start: Start::Chained,
+            direction: push.direction,
+            length: push.length,
+            room: 0.0,
+        };
+        let station = Station {
+            others: station.others.clone(),
+            pushes: station.pushes + pushes.len(),
+            tool: pushes.last().map_or(station.tool, Push::end),
+            state,
+        };
+        Ok((pushes.iter().map(planned).collect(), station))
+    }
+}
+
+/// Way of a tool that stays down.
+struct Way<'a> {
+    at: Vector,
+    pushes: Vec<Push>,
+    rules: &'a PushRules,
+}
+
+impl Way<'_> {
+    /// Adds the motion to a corner, along the axis in which it is farther.
+    fn go_to(&mut self, corner: Vector) {
+        let off = corner - self.at;
+        match off.x.abs() > off.y.abs() {
+            true => self.go(off.x.abs(), if off.x > 0.0 { 0.0 } else { PI }),
+            false => self.go(off.y.abs(), FRAC_PI_2.copysign(off.y)),
+        }
+    }
+
+    /// Adds pushes of equal length, none if the way is shorter than a push may be.
+    fn go(&mut self, length: f64, direction: f64) {
+        let count = (length / self.rules.length - 1e-9).ceil().max(1.0);
+        if length < MIN_LENGTH {
+            return;
+        }
+        for _ in 0..count as usize {
+            let (start, length, speed) = (self.at, length / count, self.rules.speed);
+            let push = Push { start, direction, length, speed };
+            self.at = push.end();
+            self.pushes.push(push);
+        }
     }
 }
 
@@ -248,12 +356,6 @@ enum Lost {
     Infeasible,
     /// All pushes end elsewhere.
     Off,
-}
-
-fn failure(leg: &Leg, lost: Lost) -> Failed {
-    let step = [leg.direction.cos().round() as i32, leg.direction.sin().round() as i32];
-    let length = (lost == Lost::Off).then(|| (leg.to - leg.from).norm());
-    Failed { object: leg.object, step, from: leg.from, length }
 }
 
 /// Returns the task of carrying one object to the end of a leg.

@@ -94,6 +94,15 @@ pub(super) struct Hold {
     pub step: [i32; 2],
     /// Position of the end effector relative to the group, metres.
     pub effector: Vector,
+    /// Travel of the tool before it meets the group, metres.
+    pub approach: f64,
+}
+
+impl Hold {
+    /// Returns the direction of the push.
+    pub fn ahead(&self) -> Vector {
+        Vector::new(f64::from(self.step[0]), f64::from(self.step[1]))
+    }
 }
 
 /// Returns all groups that can be carried from `situation`; `None` if a goal requires more than a
@@ -249,7 +258,7 @@ pub(super) fn holds(
     for direction in task.pushes.directions.headings() {
         let Some((step, ahead)) = step_of(direction) else { continue };
         let left = perpendicular(ahead);
-        let mut ways: Vec<(f64, Vector)> = Vec::new();
+        let mut ways: Vec<(f64, Vector, f64)> = Vec::new();
         for object in [group.thing].into_iter().chain(scene.parts_of(group.thing)) {
             for (part, face) in workspace.tools[pair.0].parts().iter().enumerate() {
                 let span = workspace.offset_span(pair, (state, object), part, direction);
@@ -267,7 +276,7 @@ pub(super) fn holds(
                     let past = offset + (centre - state.poses[object].position).dot(&left);
                     let Ok(placement) = workspace.place(state, &push, None) else { continue };
                     if past.abs() < half + BESIDE * radius {
-                        ways.push((past.abs(), placement.start - at));
+                        ways.push((past.abs(), placement.start - at, placement.approach()));
                     }
                 }
             }
@@ -275,7 +284,7 @@ pub(super) fn holds(
         ways.sort_by(|a, b| a.0.total_cmp(&b.0));
         let first = found.len();
         let mut taken: Vec<Vector> = Vec::new();
-        for (_, effector) in ways {
+        for (_, effector, approach) in ways {
             let known = taken.iter().any(|other| (other - effector).norm() < SAME_HOLD);
             if known || found.len() - first == HOLDS {
                 continue;
@@ -288,7 +297,7 @@ pub(super) fn holds(
                 })
             };
             if tool_solids(workspace, pair).all(|one| own(&one)) {
-                found.push(Hold { grip, direction, step, effector });
+                found.push(Hold { grip, direction, step, effector, approach });
             }
         }
     }

@@ -14,10 +14,13 @@ mod follow;
 mod group;
 mod held;
 mod lattice;
+mod legs;
 mod moves;
 mod reach;
 mod room;
 mod sequence;
+mod travel;
 
 pub use follow::{Follow, FollowSettings, Followed};
-pub use reach::{Groups, Leg, Transport};
+pub use legs::Leg;
+pub use reach::{Groups, Transport};

@@ -1,9 +1,12 @@
 //! Straight pushes of groups on the grid. A group that is pushed against others carries them along.
 
+use crate::geometry::Vector;
+
 use super::collision::Shift;
 use super::distance::SHORTEST;
 use super::group::{Group, Hold};
 use super::reach::Transport;
+use super::travel::Flood;
 
 /// Maximum number of groups that one push carries.
 pub(super) const MOVERS: usize = 4;
@@ -59,13 +62,27 @@ impl Train {
 
 impl Transport<'_> {
     /// Returns the pushes of a group that carry at most `movers` groups: for every direction those
-    /// of the first hold that is free, and longer ones of the next.
-    pub(super) fn moves(&self, k: usize, shifts: &[Shift], movers: usize) -> Vec<Move> {
+    /// of the first hold that is free, and longer ones of the next. A tool that stays down must
+    /// reach the hold.
+    pub(super) fn moves(
+        &self,
+        k: usize,
+        shifts: &[Shift],
+        movers: usize,
+        flood: Option<&Flood>,
+    ) -> Vec<Move> {
         let mut moves: Vec<Move> = Vec::new();
         for step in &self.steps {
             let mut farthest = 0;
             for (h, hold) in self.held(k).holds.iter().enumerate() {
-                if hold.step == *step {
+                let reached = || match (&self.floor, flood) {
+                    (Some(floor), Some(flood)) => {
+                        let at = self.groups[k].position(shifts[k]) + hold.effector;
+                        self.corners(floor, flood, at).is_some()
+                    }
+                    _ => true,
+                };
+                if hold.step == *step && reached() {
                     let stops = self.stops(k, (h, hold), shifts, movers);
                     let farther = stops.into_iter().filter(|one| one.steps > farthest);
                     moves.extend(farther);
@@ -121,6 +138,13 @@ impl Transport<'_> {
         stops.dedup();
         let made = |n: usize| Move { group: k, hold: h, steps: n as i16, train: trains[n] };
         stops.into_iter().map(made).collect()
+    }
+
+    /// Returns the position of the end effector after a push.
+    pub(super) fn tool_after(&self, one: &Move) -> Vector {
+        let (group, hold) = self.pushing(one);
+        let at = one.train.movers[0].1;
+        group.position(at) + hold.effector + hold.ahead() * hold.approach
     }
 
     /// Returns the groups after the first `steps` steps of a push.

@@ -11,6 +11,7 @@ use super::distance::Distances;
 use super::group::{Group, Hold, groups, holds, step_of};
 use super::held::Held;
 use super::room::{BESIDE, Room};
+use super::travel::Floor;
 
 /// Distance between positions for which the way of a lifted tool is examined, metres.
 const SAMPLE: f64 = 0.02;
@@ -20,25 +21,6 @@ const SLACK: f64 = 1e-6;
 
 /// Maximum number of holds of a group.
 const HOLDS: usize = 64;
-
-/// Push that carries a group straight along.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Leg {
-    /// Tool and grip yaw (radians).
-    pub pair: (usize, f64),
-    /// Index of the pushed object.
-    pub object: usize,
-    /// Direction, radians from world +x.
-    pub direction: f64,
-    /// Start, metres.
-    pub from: Vector,
-    /// End, metres.
-    pub to: Vector,
-    /// Whether the end is the goal.
-    pub last: bool,
-    /// Objects that are carried along, with their positions at the end, metres.
-    pub carried: Vec<(usize, Vector)>,
-}
 
 /// Groups that can be carried, with any tool.
 pub struct Groups(Vec<Group>);
@@ -56,11 +38,15 @@ pub struct Transport<'a> {
     /// Directions of pushes, in columns and rows.
     pub(super) steps: Vec<[i32; 2]>,
     pub(super) longest: f64,
-    workspace: Workspace<'a>,
+    pub(super) workspace: Workspace<'a>,
     /// Tool and grip yaw (radians) of every grip.
     pub(super) grips: Vec<(usize, f64)>,
     situation: &'a Situation,
     free: Vec<FreeRoom<'a>>,
+    /// Positions of a tool that stays down.
+    pub(super) floor: Option<Floor>,
+    /// Position of the end effector at the start.
+    pub(super) home: Vector,
     /// Holds of every group, computed on demand.
     held: Vec<OnceCell<Held>>,
     /// Collisions of every pair of groups, computed on demand.
@@ -73,24 +59,32 @@ pub struct Transport<'a> {
 
 impl<'a> Transport<'a> {
     /// Creates the transport with one tool, with these grip yaws (radians) and pushes of at most
-    /// `longest` metres. Returns `None` if a goal's object has no path even without other objects.
+    /// `longest` metres. A tool that stays down begins at `home`. Returns `None` if a goal's object has no path even without other objects.
     pub fn new(
         workspace: Workspace<'a>,
         situation: &'a Situation,
         Groups(groups): &'a Groups,
         (tool, yaws): (usize, &[f64]),
-        longest: f64,
+        (home, longest): (Vector, f64),
     ) -> Option<Self> {
         let grips: Vec<(usize, f64)> = yaws.iter().map(|yaw| (tool, *yaw)).collect();
         let free = |grip: &(usize, f64)| FreeRoom::of(workspace, *grip, (situation, groups));
         let steps = workspace.task.pushes.directions.headings().into_iter().filter_map(step_of);
+        let free: Vec<FreeRoom> = grips.iter().map(free).collect();
+        let first = groups.first()?;
+        let floor = (!workspace.is_placed()).then(|| {
+            let (spacing, corners) = (first.lattice.spacing, free[0].room.corners());
+            Floor::around(home, corners, spacing, groups.len(), |at| free[0].is_free(at))
+        });
         let mut own = Self {
             groups,
+            floor,
+            home,
             steps: steps.map(|(step, _)| step).collect(),
             longest,
             workspace,
             situation,
-            free: grips.iter().map(free).collect(),
+            free,
             held: groups.iter().map(|_| OnceCell::new()).collect(),
             between: (0..groups.len().pow(2)).map(|_| OnceCell::new()).collect(),
             rooms: (0..groups.len() * grips.len()).map(|_| OnceCell::new()).collect(),

@@ -10,12 +10,12 @@ use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap, HashSet};
 use std::rc::Rc;
 
-use crate::geometry::Vector;
-
 use super::collision::Shift;
 use super::distance::{METRE, Sample};
-use super::moves::{MOVERS, Move, Train};
-use super::reach::{Leg, Transport};
+use super::legs::{Failed, Leg};
+use super::moves::{MOVERS, Move};
+use super::reach::Transport;
+use super::travel::Flood;
 
 /// Maximum numbers of expanded states, without and with pushes that carry several groups. The former
 /// are safer.
@@ -51,19 +51,6 @@ const SAME: i16 = 2;
 
 /// Side of the cells in which places count as old, in steps of the grid.
 const OLD: i16 = 8;
-
-/// Push that failed in rollouts, so that it is not planned again.
-#[derive(Clone, Debug)]
-pub(super) struct Failed {
-    pub object: usize,
-    pub step: [i32; 2],
-    pub from: Vector,
-    /// Length, metres; `None` if no push was feasible.
-    pub length: Option<f64>,
-}
-
-/// Distance between starts of pushes that count as the same, metres.
-const NEAR: f64 = 0.03;
 
 struct Node {
     shifts: Vec<Shift>,
@@ -147,15 +134,6 @@ impl Transport<'_> {
         };
         search.run(most, count).into_iter().map(|node| search.legs_to(node)).collect()
     }
-
-    fn length(&self, steps: i16) -> f64 {
-        f64::from(steps) * self.groups.first().map_or(0.0, |group| group.lattice.spacing)
-    }
-
-    /// Returns the number of pushes for a length, metres.
-    fn pushes(&self, length: f64) -> usize {
-        ((length - 1e-9) / self.longest).floor() as usize + 1
-    }
 }
 
 impl Sequences<'_, '_> {
@@ -188,10 +166,15 @@ impl Sequences<'_, '_> {
                 continue;
             }
             let Some(estimate) = self.remaining(&shifts) else { continue };
+            let flood = self.flood(index);
             let all = shifts.len() <= MANY;
             for k in (0..shifts.len()).filter(|k| all || estimate.relevant[*k]) {
-                for one in self.transport.moves(k, &shifts, self.movers) {
-                    if self.has_failed(&one, &shifts) {
+                for one in self.transport.moves(k, &shifts, self.movers, flood.as_ref()) {
+                    if self
+                        .failed
+                        .iter()
+                        .any(|failed| self.transport.is_like(failed, &one, &shifts))
+                    {
                         continue;
                     }
                     let length = self.transport.length(one.steps);
@@ -221,21 +204,18 @@ impl Sequences<'_, '_> {
         found
     }
 
-    fn is_solved(&self, shifts: &[Shift]) -> bool {
-        self.transport.groups.iter().zip(shifts).all(|(group, at)| group.is_at_goal(*at))
+    /// Returns the positions that a tool that stays down reaches from a node.
+    fn flood(&self, node: usize) -> Option<Flood> {
+        let (transport, node) = (self.transport, &self.nodes[node]);
+        let pushed = node.before.as_ref().map(|(_, one)| one);
+        let from = pushed.map_or(transport.home, |one| transport.tool_after(one));
+        let step = pushed.map(|one| transport.held(one.group).holds[one.hold].step);
+        let floor = transport.floor.as_ref()?;
+        Some(transport.flood(floor, from, step, &node.shifts))
     }
 
-    /// Returns `true` if nearly the same push has failed before.
-    fn has_failed(&self, one: &Move, shifts: &[Shift]) -> bool {
-        let transport = self.transport;
-        let group = &transport.groups[one.group];
-        let (from, length) = (group.position(shifts[one.group]), transport.length(one.steps));
-        let step = transport.held(one.group).holds[one.hold].step;
-        self.failed.iter().any(|failed| {
-            (failed.object, failed.step) == (group.thing, step)
-                && (failed.from - from).norm() < NEAR
-                && failed.length.is_none_or(|other| (other - length).abs() < NEAR)
-        })
+    fn is_solved(&self, shifts: &[Shift]) -> bool {
+        self.transport.groups.iter().zip(shifts).all(|(group, at)| group.is_at_goal(*at))
     }
 
     /// Adds a state to both queues, unless it is known, hopeless or too far.
@@ -272,7 +252,12 @@ impl Sequences<'_, '_> {
 
     /// Returns `true` if no cheaper way to the same places is known.
     fn is_new(&mut self, node: &Node) -> bool {
-        let key: Vec<Shift> = node.shifts.iter().map(|at| at.map(|v| v.div_euclid(SAME))).collect();
+        let mut key: Vec<Shift> =
+            node.shifts.iter().map(|at| at.map(|v| v.div_euclid(SAME))).collect();
+        if let (Some(floor), Some((_, one))) = (&self.transport.floor, &node.before) {
+            let cell = floor.cell(self.transport.tool_after(one));
+            key.push(cell.map(|v| v.div_euclid(OLD)));
+        }
         if self.known.get(&key).is_some_and(|known| *known <= node.cost) {
             return false;
         }
@@ -350,44 +335,19 @@ impl Sequences<'_, '_> {
         Some(estimate)
     }
 
-    /// Returns the pushes that lead to a node.
+    /// Returns the legs that lead to a node.
     fn legs_to(&self, node: usize) -> Vec<Leg> {
-        let (transport, mut legs, mut at) = (self.transport, Vec::new(), node);
-        while let Some((before, one)) = self.nodes[at].before {
-            let shifts = &self.nodes[before].shifts;
-            let count = transport.pushes(transport.length(one.steps)) as i16;
-            let ends =
-                (0..=count).map(|n| transport.train_after(&one, one.steps * n / count, shifts));
-            let ends: Vec<_> = ends.collect();
-            let (group, hold) =
-                (&transport.groups[one.group], &transport.held(one.group).holds[one.hold]);
-            for (n, pair) in ends.windows(2).enumerate().rev() {
-                let place = |train: &Train| {
-                    let mut movers = train.movers();
-                    movers
-                        .next()
-                        .map_or(group.lattice.origin, |(k, at)| transport.groups[k].position(at))
-                };
-                let end = pair[1].movers().next().is_some_and(|(_, at)| group.is_at_goal(at));
-                let last = group.goal.filter(|_| end && n + 1 == count as usize);
-                let carried = pair[1].movers().skip(1);
-                legs.push(Leg {
-                    pair: transport.grips[hold.grip],
-                    object: group.thing,
-                    direction: hold.direction,
-                    from: place(&pair[0]),
-                    to: last.map_or(place(&pair[1]), |(goal, _)| goal),
-                    last: last.is_some(),
-                    carried: carried
-                        .map(|(k, at)| {
-                            (transport.groups[k].thing, transport.groups[k].position(at))
-                        })
-                        .collect(),
-                });
-            }
-            at = before;
+        let (mut stretches, mut at) = (Vec::new(), node);
+        while let Some((before, one)) = &self.nodes[at].before {
+            let travel = self.flood(*before).and_then(|flood| {
+                let (group, hold) = self.transport.pushing(one);
+                let from = group.position(self.nodes[*before].shifts[one.group]) + hold.effector;
+                self.transport.corners(self.transport.floor.as_ref()?, &flood, from)
+            });
+            let shifts = &self.nodes[*before].shifts;
+            stretches.push(self.transport.legs_of(one, shifts, travel.unwrap_or_default()));
+            at = *before;
         }
-        legs.reverse();
-        legs
+        stretches.into_iter().rev().flatten().collect()
     }
 }

@@ -41,8 +41,11 @@ const FAR: usize = 24;
 /// Number of first legs followed in this case.
 const AHEAD: usize = 2;
 
-/// Legs for the tool with this index.
-type Legs = (usize, Vec<Leg>);
+/// Index of a tool and its grip yaws, radians.
+type Grips<'a> = (usize, &'a [f64]);
+
+/// Legs for a tool.
+type Legs<'a> = (Grips<'a>, Vec<Leg>);
 
 /// First pushes of a plan that leads to the goals.
 pub struct Approach {
@@ -56,16 +59,16 @@ pub struct Approach {
 
 /// Strategy that follows legs once the usual search has reached a given number of pushes.
 #[derive(Default)]
-pub(super) struct Transport {
+pub(super) struct Transport<'a> {
     depth: usize,
     /// Whether legs have been searched.
     searched: bool,
     /// Whether legs of few pushes are followed.
     begun: bool,
-    open: VecDeque<Legs>,
+    open: VecDeque<Legs<'a>>,
 }
 
-impl<'a> Strategy<'a> for Transport {
+impl<'a> Strategy<'a> for Transport<'a> {
     fn name(&self) -> &'static str {
         "transport"
     }
@@ -127,7 +130,7 @@ pub(in crate::solve) fn approach(board: &mut Blackboard, least: usize) -> Option
             && let Some(Ok(made)) = made.next()
             && arm_fault(&board.query, &made).is_none()
         {
-            let tool = Arc::clone(&workspace.tools[tool]);
+            let tool = Arc::clone(&workspace.tools[tool.0]);
             return Some(Approach { plan: made.plan(&workspace), tool, pushes: legs.len() });
         }
     }
@@ -136,19 +139,24 @@ pub(in crate::solve) fn approach(board: &mut Blackboard, least: usize) -> Option
 
 /// Returns legs for the tools that need the fewest pushes, up to `count` plans of at most `most`
 /// legs each.
-fn legs(board: &Blackboard, most: usize, count: usize) -> Vec<Legs> {
+fn legs<'a>(board: &Blackboard<'a>, most: usize, count: usize) -> Vec<Legs<'a>> {
     let (workspace, situation) = (board.query.workspace(), board.query.situation);
-    if board.search.is_none() || !workspace.is_placed() {
+    if board.search.is_none() {
         return Vec::new();
     }
     let Some(groups) = Groups::of(&workspace, situation) else { return Vec::new() };
     board.reporter.stage("search for legs");
-    let (yaws, longest) = (&board.query.task.pushes.grip_yaws, longest(board));
-    let carrier = |tool: usize| {
-        let pair = (tool, &yaws[..]);
-        Some((tool, Carrier::new(workspace, situation, &groups, pair, longest)?))
+    let task = board.query.task;
+    let start = (task.robot.home, longest(board));
+    let carrier = |grips: Grips<'a>| {
+        Some((grips, Carrier::new(workspace, situation, &groups, grips, start)?))
     };
-    let mut all: Vec<_> = (0..workspace.tools.len()).filter_map(carrier).collect();
+    // A tool that stays down keeps its yaw.
+    let yaws = &task.pushes.grip_yaws;
+    let at_once = if workspace.is_placed() { yaws.len() } else { 1 };
+    let tools = 0..workspace.tools.len();
+    let grips = tools.flat_map(|tool| yaws.chunks(at_once).map(move |yaws| (tool, yaws)));
+    let mut all: Vec<_> = grips.filter_map(carrier).collect();
     // The sort is stable, so that ties keep their order.
     all.sort_by(|a, b| a.1.least().total_cmp(&b.1.least()));
     let best = all.iter().take(TOOLS);
@@ -166,7 +174,7 @@ fn longest(board: &Blackboard) -> f64 {
 /// Finds at most `most` pushes along at most `ahead` legs and counts their rollouts.
 fn followed(
     board: &mut Blackboard,
-    tool: usize,
+    grips: Grips,
     legs: &[Leg],
     (most, ahead): (usize, usize),
 ) -> Option<Followed> {
@@ -180,7 +188,7 @@ fn followed(
     let follow = Follow {
         workspace: query.workspace(),
         situation: query.situation,
-        tool: (tool, &query.task.pushes.grip_yaws),
+        tool: grips,
         longest: longest(board),
         most,
         model: query.planner.model(),
