@@ -54,7 +54,7 @@ pub use search_result::{SearchResult, kinds};
 pub use statistics::{RefineStatistics, SearchStatistics};
 pub use swept_region::{SweptRegion, alone};
 pub use tie_break::{Cost, NEAR, in_order, preferred};
-pub use transport::{Follow, FollowSettings, Followed, Groups, Leg, Transport};
+pub use transport::{Follow, FollowSettings, Followed, Groups, Leg, Transport, find_legs};
 pub use uncertainty::Uncertainty;
 pub use workspace::{
     HAND_CLEARANCE, MIN_LENGTH, Margins, OBSTACLE_CLEARANCE, SET_DOWN_CLEARANCE, Workspace,

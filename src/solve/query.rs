@@ -21,6 +21,10 @@ const MOST_ROOM_FOR_MODEL: f64 = 0.02;
 /// because its outcome is not smooth. With up to four objects, the limit on rounds applies first.
 const REFINE_WORK: usize = 20_000;
 
+/// Number of pushes above which a plan is not refined as a whole. Such plans follow legs, so that
+/// their pushes have been refined one by one, and a round would cost hundreds of long rollouts.
+const LONG: usize = 10;
+
 /// Task in a situation, with its planner and progress observer.
 #[derive(Clone, Copy)]
 pub(super) struct Query<'a> {
@@ -59,7 +63,7 @@ impl<'a> Query<'a> {
     pub fn refine_settings(&self, pushes: usize) -> RefineSettings {
         let settings = &self.settings;
         RefineSettings {
-            rounds: settings.refine_rounds,
+            rounds: if pushes > LONG { 0 } else { settings.refine_rounds },
             extra: settings.refine_extra,
             // Each number of pushes has its own random stream, so that samples are not shared.
             seed: self.planner.seed().wrapping_mul(0x9E37_79B9).wrapping_add(pushes as u64) << 16,

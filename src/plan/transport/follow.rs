@@ -2,35 +2,25 @@
 //! the state left by the previous pushes.
 
 use std::collections::VecDeque;
-use std::f64::consts::{FRAC_PI_2, PI};
-use std::sync::Arc;
 
 use crate::effect::EffectModel;
-use crate::geometry::{Footprint, Vector};
+use crate::geometry::Vector;
 use crate::plan::uncertainty::{Uncertainty, room};
 use crate::plan::{
-    Candidate, CandidatePush, Evaluation, MIN_LENGTH, RefineSettings, RefineStatistics, Rollouts,
-    Search, SearchSettings, Start, Workspace, kinds, refine,
+    Candidate, CandidatePush, Evaluation, RefineSettings, RefineStatistics, Rollouts, Search,
+    SearchSettings, Workspace, kinds, refine,
 };
 use crate::progress::Progress;
 use crate::{
     outcome::Record,
     scene::{Scene, Situation, State},
-    task::{Directions, Goal, Push, PushRules, Task, ToolMotion},
 };
 
+use super::chained::chained;
 use super::legs::{Failed, Leg};
 use super::reach::{Groups, Transport};
-
-/// Tolerance of an object's position at the end of a leg, metres. An object further off would not
-/// pass the next gap.
-const NEAR: f64 = 0.01;
-
-/// Tolerance of an object's heading at the end of a leg relative to the start, radians.
-const TURNED: f64 = 0.1;
-
-/// Score above which a leg is lost, so that the next legs do not start.
-const LOST: f64 = 1.5;
+use super::sequence::legs_without;
+use super::station::{LOST, Lost, Station, towards};
 
 /// Distance of an object from its planned position at which other legs are searched, metres.
 const STRAYS: f64 = 0.008;
@@ -41,14 +31,8 @@ const RETRIES: usize = 16;
 /// Score at which a plan counts as complete, because refinement can correct the rest.
 const ARRIVED: f64 = 1.5;
 
-/// Number of rollouts with which a push of a tool that stays down is corrected.
-const CORRECTIONS: usize = 3;
-
 /// Motion of other objects other than planned that counts as one unit of the score, metres.
 const BESIDE: f64 = 0.02;
-
-/// Length of a push beyond its leg, metres, because the tool starts farther away.
-const LONGER: f64 = 0.05;
 
 /// Budgets of the pushes along legs.
 #[derive(Clone, Copy, Debug)]
@@ -90,18 +74,6 @@ pub struct Follow<'a> {
     pub model: &'a dyn EffectModel,
     /// Budgets of the pushes.
     pub settings: FollowSettings,
-}
-
-/// State between two legs.
-#[derive(Clone)]
-struct Station {
-    state: State,
-    /// The same state for other plausible physics.
-    others: Vec<State>,
-    /// Number of pushes so far.
-    pushes: usize,
-    /// Position of the end effector.
-    tool: Vector,
 }
 
 impl Follow<'_> {
@@ -187,7 +159,7 @@ impl Follow<'_> {
         let transport =
             Transport::new(self.workspace, &now, &groups, self.tool, (station.tool, self.longest))?;
         let most = self.most.checked_sub(station.pushes).filter(|most| *most > 0)?;
-        let legs = transport.legs_without(failed, most, 1).pop()?;
+        let legs = legs_without(&transport, failed, most, 1).pop()?;
         (!legs.is_empty()).then_some(legs)
     }
 
@@ -208,7 +180,7 @@ impl Follow<'_> {
     ) -> Result<(Vec<CandidatePush>, Station), Lost> {
         let now = Situation { start: station.state.clone(), ..self.situation.clone() };
         if !self.workspace.is_placed() {
-            return self.chained(leg, station, now, used);
+            return chained((&self.workspace, self.model), leg, station, now, used);
         }
         let (tool, grip_yaw) = leg.pair;
         let task = towards(self.workspace.task, leg, &now, grip_yaw);
@@ -241,95 +213,6 @@ impl Follow<'_> {
         };
         Ok((pushes, station))
     }
-
-    /// Returns the pushes of a tool that stays down along a leg: its way, then the push.
-    fn chained(
-        &self,
-        leg: &Leg,
-        station: &Station,
-        now: Situation,
-        used: &mut usize,
-    ) -> Result<(Vec<CandidatePush>, Station), Lost> {
-        let (rules, (tool, grip_yaw)) = (&self.workspace.task.pushes, leg.pair);
-        let ahead = Vector::new(leg.direction.cos(), leg.direction.sin());
-        let task = towards(self.workspace.task, leg, &now, grip_yaw);
-        let mut more = 0.0;
-        let mut best: Option<(f64, Vec<Push>, State)> = None;
-        for _ in 0..CORRECTIONS {
-            let mut way = Way { at: station.tool, pushes: Vec::new(), rules };
-            leg.travel.iter().for_each(|corner| way.go_to(*corner));
-            let end = leg.to + leg.contact + ahead * more;
-            way.go((end - way.at).dot(&ahead), leg.direction);
-            let pushes = way.pushes;
-            if pushes.is_empty() {
-                return Err(Lost::Infeasible);
-            }
-            let tools = Arc::clone(&self.workspace.tools[tool]);
-            let motion = ToolMotion::pushes(tools, rules.lift, grip_yaw, &pushes, true);
-            let mut rollouts = Rollouts::new(self.model, now.clone());
-            let jobs = [rollouts.job(motion, now.start.clone())];
-            let outcome = rollouts.run(&jobs, Record::Outcome).remove(0).outcome().clone();
-            *used += rollouts.used();
-            let (score, short) =
-                (task.score(&outcome), (leg.to - outcome.poses[leg.object].position).dot(&ahead));
-            more += short;
-            if best.as_ref().is_none_or(|(known, ..)| score < *known) {
-                best = Some((score, pushes, outcome));
-            }
-        }
-        let (score, pushes, state) = best.ok_or(Lost::Infeasible)?;
-        if score > LOST {
-            return Err(Lost::Off);
-        }
-        let planned = |push: &Push| CandidatePush {
-            tool,
-            grip_yaw,
-            object: leg.object,
-            start: Start::Chained,
-            direction: push.direction,
-            length: push.length,
-            room: 0.0,
-        };
-        let station = Station {
-            others: station.others.clone(),
-            pushes: station.pushes + pushes.len(),
-            tool: pushes.last().map_or(station.tool, Push::end),
-            state,
-        };
-        Ok((pushes.iter().map(planned).collect(), station))
-    }
-}
-
-/// Way of a tool that stays down.
-struct Way<'a> {
-    at: Vector,
-    pushes: Vec<Push>,
-    rules: &'a PushRules,
-}
-
-impl Way<'_> {
-    /// Adds the motion to a corner, along the axis in which it is farther.
-    fn go_to(&mut self, corner: Vector) {
-        let off = corner - self.at;
-        match off.x.abs() > off.y.abs() {
-            true => self.go(off.x.abs(), if off.x > 0.0 { 0.0 } else { PI }),
-            false => self.go(off.y.abs(), FRAC_PI_2.copysign(off.y)),
-        }
-    }
-
-    /// Adds pushes of equal length, none if the way is shorter than a push may be.
-    fn go(&mut self, length: f64, direction: f64) {
-        let count = (length / self.rules.length - 1e-9).ceil().max(1.0);
-        if length < MIN_LENGTH {
-            return;
-        }
-        for _ in 0..count as usize {
-            let (start, length, speed) = (self.at, length / count, self.rules.speed);
-            let push = Push { start, direction, length, speed };
-            self.at = push.end();
-            self.pushes.push(push);
-        }
-    }
 }
 
 /// Returns the objects that are not parts of another one, with their planned positions after a leg.
@@ -347,36 +230,6 @@ fn expected<'a>(
         };
         (k, there)
     })
-}
-
-/// Reason for which a leg is lost.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Lost {
-    /// No push is feasible.
-    Infeasible,
-    /// All pushes end elsewhere.
-    Off,
-}
-
-/// Returns the task of carrying one object to the end of a leg.
-fn towards(task: &Task, leg: &Leg, now: &Situation, grip_yaw: f64) -> Task {
-    let object = &task.scene.objects[leg.object];
-    let own = task.goals.iter().find(|goal| leg.last && goal.object == leg.object);
-    let tolerance = own.map_or(NEAR, |goal| goal.tolerance().min(NEAR));
-    let goal = Goal::new(leg.object, [leg.to.x, leg.to.y], tolerance);
-    let turns = !matches!(object.shape.footprint(), Footprint::Disc { .. });
-    let goal = match turns {
-        true => goal.facing(now.start.poses[leg.object].heading, TURNED),
-        false => goal,
-    };
-    let pushes = PushRules {
-        directions: Directions::List(vec![leg.direction]),
-        grip_yaws: vec![grip_yaw],
-        length: (leg.to - leg.from).norm() + LONGER,
-        max_count: 1,
-        ..task.pushes.clone()
-    };
-    Task { goals: vec![goal], pushes, ..task.clone() }
 }
 
 /// Returns the best single push for a task from the current situation.

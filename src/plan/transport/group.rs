@@ -28,7 +28,7 @@ const SLACK: f64 = 1e-6;
 const OFFSETS: [f64; 5] = [0.0, 0.35, -0.35, 0.7, -0.7];
 
 /// Maximum number of holds for one direction.
-const HOLDS: usize = 3;
+const HOLDS: usize = 6;
 
 /// Distance below which two holds count as one, metres.
 const SAME_HOLD: f64 = 0.015;
@@ -266,8 +266,12 @@ pub(super) fn holds(
                 let across = (tool * face.pose).local_vector(left);
                 let half = face.footprint().extent(across).max(face.footprint().extent(-across));
                 let radius = scene.objects[object].shape.footprint().mean_radius();
-                for share in OFFSETS {
-                    let offset = share * span;
+                let (shape, pose) = (&scene.objects[object].shape, state.poses[object]);
+                let wide = |axis: Vector| shape.footprint().extent(pose.local_vector(axis));
+                // With a side of the object flush with a side of the face, both fit a passage.
+                let flush = (half - wide(left).max(wide(-left))).abs().min(span);
+                let offsets = OFFSETS.map(|share| share * span);
+                for offset in offsets.into_iter().chain([flush, -flush]) {
                     let start = Start::Placed { part, offset };
                     let ((tool, grip_yaw), length, room) = (pair, 0.0, ROOM);
                     let push =

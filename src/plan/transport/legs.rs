@@ -3,8 +3,7 @@
 use crate::geometry::Vector;
 
 use super::collision::Shift;
-use super::group::{Group, Hold};
-use super::moves::{Move, Train};
+use super::moves::{Move, Train, pushing, train_after};
 use super::reach::Transport;
 
 /// Distance between starts of pushes that count as the same, and of their lengths, metres.
@@ -52,59 +51,52 @@ impl Failed {
     }
 }
 
-impl Transport<'_> {
-    /// Returns the group that a push moves, and the hold behind it.
-    pub(super) fn pushing(&self, one: &Move) -> (&Group, &Hold) {
-        (&self.groups[one.group], &self.held(one.group).holds[one.hold])
-    }
+/// Returns `true` if nearly the same push has failed before.
+pub(super) fn is_like(
+    transport: &Transport,
+    failed: &Failed,
+    one: &Move,
+    shifts: &[Shift],
+) -> bool {
+    let (group, hold) = pushing(transport, one);
+    let (from, length) = (group.position(shifts[one.group]), transport.length(one.steps));
+    (failed.object, failed.step) == (group.thing, hold.step)
+        && (failed.from - from).norm() < NEAR
+        && failed.length.is_none_or(|other| (other - length).abs() < NEAR)
+}
 
-    /// Returns the length of a number of steps, metres.
-    pub(super) fn length(&self, steps: i16) -> f64 {
-        f64::from(steps) * self.groups.first().map_or(0.0, |group| group.lattice.spacing)
-    }
-
-    /// Returns the number of pushes for a length, metres.
-    pub(super) fn pushes(&self, length: f64) -> usize {
-        ((length - 1e-9) / self.longest).floor() as usize + 1
-    }
-
-    /// Returns `true` if nearly the same push has failed before.
-    pub(super) fn is_like(&self, failed: &Failed, one: &Move, shifts: &[Shift]) -> bool {
-        let (group, hold) = self.pushing(one);
-        let (from, length) = (group.position(shifts[one.group]), self.length(one.steps));
-        (failed.object, failed.step) == (group.thing, hold.step)
-            && (failed.from - from).norm() < NEAR
-            && failed.length.is_none_or(|other| (other - length).abs() < NEAR)
-    }
-
-    /// Returns the legs of a push from a state, after a way of the tool along `travel`. A tool that
-    /// stays down makes one leg of a long push.
-    pub(super) fn legs_of(&self, one: &Move, shifts: &[Shift], travel: Vec<Vector>) -> Vec<Leg> {
-        let (group, hold) = self.pushing(one);
-        let count = match self.floor {
-            Some(_) => 1,
-            None => self.pushes(self.length(one.steps)) as i16,
-        };
-        let at = |n: i16| self.train_after(one, one.steps * n / count, shifts);
-        let position = |(k, at): (usize, Shift)| self.groups[k].position(at);
-        let first = |train: &Train| train.movers().next().unwrap_or((one.group, [0, 0]));
-        let leg = |n: i16| {
-            let (before, after) = (at(n), at(n + 1));
-            let end = first(&after);
-            let goal = group.goal.filter(|_| n + 1 == count && group.is_at_goal(end.1));
-            let carried = after.movers().skip(1);
-            Leg {
-                pair: self.grips[hold.grip],
-                object: group.thing,
-                direction: hold.direction,
-                from: position(first(&before)),
-                to: goal.map_or_else(|| position(end), |(goal, _)| goal),
-                last: goal.is_some(),
-                travel: if n == 0 { travel.clone() } else { Vec::new() },
-                contact: hold.effector + hold.ahead() * hold.approach,
-                carried: carried.map(|one| (self.groups[one.0].thing, position(one))).collect(),
-            }
-        };
-        (0..count).map(leg).collect()
-    }
+/// Returns the legs of a push from a state, after a way of the tool along `travel`. A tool that
+/// stays down makes one leg of a long push.
+pub(super) fn legs_of(
+    transport: &Transport,
+    one: &Move,
+    shifts: &[Shift],
+    travel: Vec<Vector>,
+) -> Vec<Leg> {
+    let (group, hold) = pushing(transport, one);
+    let count = match transport.floor {
+        Some(_) => 1,
+        None => transport.pushes(transport.length(one.steps)) as i16,
+    };
+    let at = |n: i16| train_after(transport, one, one.steps * n / count, shifts);
+    let position = |(k, at): (usize, Shift)| transport.groups[k].position(at);
+    let first = |train: &Train| train.movers().next().unwrap_or((one.group, [0, 0]));
+    let leg = |n: i16| {
+        let (before, after) = (at(n), at(n + 1));
+        let end = first(&after);
+        let goal = group.goal.filter(|_| n + 1 == count && group.is_at_goal(end.1));
+        let carried = after.movers().skip(1);
+        Leg {
+            pair: transport.grips[hold.grip],
+            object: group.thing,
+            direction: hold.direction,
+            from: position(first(&before)),
+            to: goal.map_or_else(|| position(end), |(goal, _)| goal),
+            last: goal.is_some(),
+            travel: if n == 0 { travel.clone() } else { Vec::new() },
+            contact: hold.effector + hold.ahead() * hold.approach,
+            carried: carried.map(|one| (transport.groups[one.0].thing, position(one))).collect(),
+        }
+    };
+    (0..count).map(leg).collect()
 }

@@ -8,6 +8,7 @@
 //! complex environments"). No rollouts are needed. [`Follow`] then finds real pushes for the legs,
 //! one after another, and searches again from where they lead elsewhere.
 
+mod chained;
 mod collision;
 mod distance;
 mod follow;
@@ -19,8 +20,10 @@ mod moves;
 mod reach;
 mod room;
 mod sequence;
+mod station;
 mod travel;
 
 pub use follow::{Follow, FollowSettings, Followed};
 pub use legs::Leg;
 pub use reach::{Groups, Transport};
+pub use sequence::find_legs;

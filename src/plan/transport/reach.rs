@@ -11,7 +11,7 @@ use super::distance::Distances;
 use super::group::{Group, Hold, groups, holds, step_of};
 use super::held::Held;
 use super::room::{BESIDE, Room};
-use super::travel::Floor;
+use super::travel::{Flood, Floor};
 
 /// Distance between positions for which the way of a lifted tool is examined, metres.
 const SAMPLE: f64 = 0.02;
@@ -38,13 +38,14 @@ pub struct Transport<'a> {
     /// Directions of pushes, in columns and rows.
     pub(super) steps: Vec<[i32; 2]>,
     pub(super) longest: f64,
-    pub(super) workspace: Workspace<'a>,
+    workspace: Workspace<'a>,
     /// Tool and grip yaw (radians) of every grip.
     pub(super) grips: Vec<(usize, f64)>,
     situation: &'a Situation,
     free: Vec<FreeRoom<'a>>,
-    /// Positions of a tool that stays down.
+    /// Positions of a tool that stays down, and its collisions with every group.
     pub(super) floor: Option<Floor>,
+    beside_floor: Vec<OnceCell<Collisions>>,
     /// Position of the end effector at the start.
     pub(super) home: Vector,
     /// Holds of every group, computed on demand.
@@ -74,11 +75,12 @@ impl<'a> Transport<'a> {
         let first = groups.first()?;
         let floor = (!workspace.is_placed()).then(|| {
             let (spacing, corners) = (first.lattice.spacing, free[0].room.corners());
-            Floor::around(home, corners, spacing, groups.len(), |at| free[0].is_free(at))
+            Floor::around(home, corners, spacing, |at| free[0].is_free(at))
         });
         let mut own = Self {
             groups,
             floor,
+            beside_floor: groups.iter().map(|_| OnceCell::new()).collect(),
             home,
             steps: steps.map(|(step, _)| step).collect(),
             longest,
@@ -148,6 +150,44 @@ impl<'a> Transport<'a> {
             let spacing = group.lattice.spacing;
             Collisions::of((&group.solids, start), (&still.solids, at), spacing, apart)
         })
+    }
+
+    /// Computes the positions that a tool that stays down reaches from a position, after a push in
+    /// the direction `pushed`; `None` for a tool that comes from above.
+    pub(super) fn flood(
+        &self,
+        from: Vector,
+        pushed: Option<[i32; 2]>,
+        shifts: &[Shift],
+    ) -> Option<Flood> {
+        let floor = self.floor.as_ref()?;
+        let table = |k: usize| {
+            self.beside_floor[k].get_or_init(|| {
+                let room = Room::beside(&self.workspace, self.grips[0], &self.groups[k]);
+                Collisions::sampled(&room, self.home, self.groups[k].lattice.spacing)
+            })
+        };
+        let tables: Vec<&Collisions> = (0..self.groups.len()).map(table).collect();
+        Some(floor.flood(from, pushed, (&tables, shifts)))
+    }
+
+    /// Returns the corners of the way of a tool that stays down to a position; empty for a tool that
+    /// comes from above, and `None` if there is no way.
+    pub(super) fn travel(&self, flood: Option<&Flood>, to: Vector) -> Option<Vec<Vector>> {
+        match (&self.floor, flood) {
+            (Some(floor), Some(flood)) => floor.corners(flood, to),
+            _ => Some(Vec::new()),
+        }
+    }
+
+    /// Returns the length of a number of steps, metres.
+    pub(super) fn length(&self, steps: i16) -> f64 {
+        f64::from(steps) * self.groups.first().map_or(0.0, |group| group.lattice.spacing)
+    }
+
+    /// Returns the number of pushes for a length, metres.
+    pub(super) fn pushes(&self, length: f64) -> usize {
+        ((length - 1e-9) / self.longest).floor() as usize + 1
     }
 
     /// Returns the collisions of the tool behind a group with another group.

@@ -12,8 +12,8 @@ use std::rc::Rc;
 
 use super::collision::Shift;
 use super::distance::{METRE, Sample};
-use super::legs::{Failed, Leg};
-use super::moves::{MOVERS, Move};
+use super::legs::{Failed, Leg, is_like, legs_of};
+use super::moves::{MOVERS, Move, moves, pushing, tool_after};
 use super::reach::Transport;
 use super::travel::Flood;
 
@@ -45,9 +45,6 @@ const ASIDE: f64 = 1.5;
 
 /// Number of states taken from the first queue for each one of the second.
 const TURNS: usize = 3;
-
-/// Side of the cells in which places count as the same, in steps of the grid.
-const SAME: i16 = 2;
 
 /// Side of the cells in which places count as old, in steps of the grid.
 const OLD: i16 = 8;
@@ -90,52 +87,49 @@ struct Sequences<'t, 'a> {
     paths: HashMap<(usize, Shift), Rc<(Vec<Sample>, usize)>>,
 }
 
-impl Transport<'_> {
-    /// Returns the legs of up to `count` plans with at most `most` pushes each.
-    pub fn legs(&self, most: usize, count: usize) -> Vec<Vec<Leg>> {
-        self.legs_without(&[], most, count)
-    }
-
-    /// Returns the legs of plans that avoid pushes which failed.
-    pub(super) fn legs_without(
-        &self,
-        failed: &[Failed],
-        most: usize,
-        count: usize,
-    ) -> Vec<Vec<Leg>> {
-        for (budget, movers) in PASSES {
-            let found = self.sequences(failed, (most, count), (budget, movers));
-            if !found.is_empty() {
-                return found;
-            }
-        }
-        Vec::new()
-    }
-
-    /// Returns the legs of plans whose pushes carry up to `movers` groups.
-    fn sequences(
-        &self,
-        failed: &[Failed],
-        (most, count): (usize, usize),
-        (budget, movers): (usize, usize),
-    ) -> Vec<Vec<Leg>> {
-        let mut search = Sequences {
-            transport: self,
-            failed,
-            budget,
-            movers,
-            nodes: Vec::new(),
-            near: BinaryHeap::new(),
-            novel: BinaryHeap::new(),
-            known: HashMap::new(),
-            old: HashSet::new(),
-            old_pairs: HashSet::new(),
-            paths: HashMap::new(),
-        };
-        search.run(most, count).into_iter().map(|node| search.legs_to(node)).collect()
-    }
+/// Returns the legs of up to `count` plans with at most `most` pushes each.
+pub fn find_legs(transport: &Transport, most: usize, count: usize) -> Vec<Vec<Leg>> {
+    legs_without(transport, &[], most, count)
 }
 
+/// Returns the legs of plans that avoid pushes which failed.
+pub(super) fn legs_without(
+    transport: &Transport,
+    failed: &[Failed],
+    most: usize,
+    count: usize,
+) -> Vec<Vec<Leg>> {
+    for (budget, movers) in PASSES {
+        let found = sequences(transport, failed, (most, count), (budget, movers));
+        if !found.is_empty() {
+            return found;
+        }
+    }
+    Vec::new()
+}
+
+/// Returns the legs of plans whose pushes carry up to `movers` groups.
+fn sequences(
+    transport: &Transport,
+    failed: &[Failed],
+    (most, count): (usize, usize),
+    (budget, movers): (usize, usize),
+) -> Vec<Vec<Leg>> {
+    let mut search = Sequences {
+        transport,
+        failed,
+        budget,
+        movers,
+        nodes: Vec::new(),
+        near: BinaryHeap::new(),
+        novel: BinaryHeap::new(),
+        known: HashMap::new(),
+        old: HashSet::new(),
+        old_pairs: HashSet::new(),
+        paths: HashMap::new(),
+    };
+    search.run(most, count).into_iter().map(|node| search.legs_to(node)).collect()
+}
 impl Sequences<'_, '_> {
     /// Returns the nodes at which all goals are met.
     fn run(&mut self, most: usize, count: usize) -> Vec<usize> {
@@ -169,11 +163,11 @@ impl Sequences<'_, '_> {
             let flood = self.flood(index);
             let all = shifts.len() <= MANY;
             for k in (0..shifts.len()).filter(|k| all || estimate.relevant[*k]) {
-                for one in self.transport.moves(k, &shifts, self.movers, flood.as_ref()) {
+                for one in moves(self.transport, k, &shifts, self.movers, flood.as_ref()) {
                     if self
                         .failed
                         .iter()
-                        .any(|failed| self.transport.is_like(failed, &one, &shifts))
+                        .any(|failed| is_like(self.transport, failed, &one, &shifts))
                     {
                         continue;
                     }
@@ -208,10 +202,9 @@ impl Sequences<'_, '_> {
     fn flood(&self, node: usize) -> Option<Flood> {
         let (transport, node) = (self.transport, &self.nodes[node]);
         let pushed = node.before.as_ref().map(|(_, one)| one);
-        let from = pushed.map_or(transport.home, |one| transport.tool_after(one));
-        let step = pushed.map(|one| transport.held(one.group).holds[one.hold].step);
-        let floor = transport.floor.as_ref()?;
-        Some(transport.flood(floor, from, step, &node.shifts))
+        let from = pushed.map_or(transport.home, |one| tool_after(transport, one));
+        let step = pushed.map(|one| pushing(transport, one).1.step);
+        transport.flood(from, step, &node.shifts)
     }
 
     fn is_solved(&self, shifts: &[Shift]) -> bool {
@@ -250,12 +243,16 @@ impl Sequences<'_, '_> {
         self.nodes.push(node);
     }
 
-    /// Returns `true` if no cheaper way to the same places is known.
+    /// Returns `true` if no cheaper way to the same places is known, and goals can be reached.
     fn is_new(&mut self, node: &Node) -> bool {
-        let mut key: Vec<Shift> =
-            node.shifts.iter().map(|at| at.map(|v| v.div_euclid(SAME))).collect();
+        let transport = self.transport;
+        let is_lost = |(k, at)| !transport.distance(k, at).is_finite();
+        if node.before.as_ref().is_some_and(|(_, one)| one.train.movers().any(is_lost)) {
+            return false;
+        }
+        let mut key = node.shifts.clone();
         if let (Some(floor), Some((_, one))) = (&self.transport.floor, &node.before) {
-            let cell = floor.cell(self.transport.tool_after(one));
+            let cell = floor.cell(tool_after(self.transport, one));
             key.push(cell.map(|v| v.div_euclid(OLD)));
         }
         if self.known.get(&key).is_some_and(|known| *known <= node.cost) {
@@ -339,13 +336,11 @@ impl Sequences<'_, '_> {
     fn legs_to(&self, node: usize) -> Vec<Leg> {
         let (mut stretches, mut at) = (Vec::new(), node);
         while let Some((before, one)) = &self.nodes[at].before {
-            let travel = self.flood(*before).and_then(|flood| {
-                let (group, hold) = self.transport.pushing(one);
-                let from = group.position(self.nodes[*before].shifts[one.group]) + hold.effector;
-                self.transport.corners(self.transport.floor.as_ref()?, &flood, from)
-            });
+            let (group, hold) = pushing(self.transport, one);
+            let from = group.position(self.nodes[*before].shifts[one.group]) + hold.effector;
+            let travel = self.transport.travel(self.flood(*before).as_ref(), from);
             let shifts = &self.nodes[*before].shifts;
-            stretches.push(self.transport.legs_of(one, shifts, travel.unwrap_or_default()));
+            stretches.push(legs_of(self.transport, one, shifts, travel.unwrap_or_default()));
             at = *before;
         }
         stretches.into_iter().rev().flatten().collect()

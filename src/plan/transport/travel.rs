@@ -1,14 +1,11 @@
 //! Ways of a tool that stays down between pushes: straight stretches among all bodies, with the
 //! fewest turns.
 
-use std::cell::OnceCell;
 use std::collections::VecDeque;
 
 use crate::geometry::{Grid, Vector};
 
 use super::collision::{Collisions, Shift};
-use super::reach::Transport;
-use super::room::Room;
 
 /// Number of steps by which a tool backs away from the group that it has pushed.
 const BACK: usize = 2;
@@ -18,8 +15,6 @@ pub(super) struct Floor {
     grid: Grid,
     /// Positions that are free among fixed bodies.
     free: Vec<bool>,
-    /// Collisions of the tool with every group, computed on demand.
-    beside: Vec<OnceCell<Collisions>>,
 }
 
 /// Positions that a tool reaches, each with the one before the last turn.
@@ -28,48 +23,37 @@ pub(super) struct Flood {
 }
 
 impl Floor {
-    /// Computes the free positions around `home` within a box, beside `groups` groups.
+    /// Computes the free positions around `home` within a box.
     pub fn around(
         home: Vector,
         corners: [Vector; 2],
         spacing: f64,
-        groups: usize,
         is_free: impl Fn(Vector) -> bool,
     ) -> Self {
         let grid = Grid::covering(home, corners, spacing);
         let free = (0..grid.count()).map(|place| is_free(grid.position(place))).collect();
-        Self { grid, free, beside: (0..groups).map(|_| OnceCell::new()).collect() }
+        Self { grid, free }
     }
 
     /// Returns the cell of a position, as columns and rows from home.
     pub fn cell(&self, position: Vector) -> Shift {
         self.grid.offset(self.grid.nearest(position)).map(|v| v as i16)
     }
-}
 
-impl Transport<'_> {
     /// Computes the positions that the tool reaches from a position, by levels of equally many
-    /// turns. `pushed` is the direction of the push before, if any, from which it backs away.
-    pub(super) fn flood(
+    /// turns. `pushed` is the direction of the push before, if any, from which it backs away, and
+    /// `tables` are its collisions with every group, each at its displacement in `shifts`.
+    pub fn flood(
         &self,
-        floor: &Floor,
         from: Vector,
         pushed: Option<[i32; 2]>,
-        shifts: &[Shift],
+        (tables, shifts): (&[&Collisions], &[Shift]),
     ) -> Flood {
-        let grid = &floor.grid;
+        let grid = &self.grid;
         let first = grid.nearest(from);
-        let beside = |k: usize| {
-            floor.beside[k].get_or_init(|| {
-                let group = &self.groups[k];
-                let room = Room::beside(&self.workspace, self.grips[0], group);
-                Collisions::sampled(&room, grid.origin, group.lattice.spacing)
-            })
-        };
-        let tables: Vec<&Collisions> = (0..self.groups.len()).map(beside).collect();
         let is_free = |place: usize| {
             let at = grid.offset(place).map(|v| v as i16);
-            floor.free[place]
+            self.free[place]
                 && !tables.iter().zip(shifts).any(|(table, there)| table.meet(at, *there))
         };
         let mut flood = Flood { before: vec![None; grid.count()] };
@@ -79,7 +63,7 @@ impl Transport<'_> {
         let mut at = first;
         for _ in 0..BACK {
             let back = pushed.and_then(|step| grid.next(at, step.map(|s| -s)));
-            let Some(next) = back.filter(|next| floor.free[*next]) else { break };
+            let Some(next) = back.filter(|next| self.free[*next]) else { break };
             at = next;
             (levels[at], flood.before[at]) = (0, Some(first as u32));
             queue.push_back(at);
@@ -104,8 +88,8 @@ impl Transport<'_> {
     }
 
     /// Returns the corners of the way to a position, the start excluded; `None` if there is none.
-    pub(super) fn corners(&self, floor: &Floor, flood: &Flood, to: Vector) -> Option<Vec<Vector>> {
-        let grid = &floor.grid;
+    pub fn corners(&self, flood: &Flood, to: Vector) -> Option<Vec<Vector>> {
+        let grid = &self.grid;
         let place = grid.nearest(to);
         let mut at = [[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]]
             .into_iter()

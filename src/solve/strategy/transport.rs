@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::plan::{
     Follow, FollowSettings, Followed, Groups, Leg, Search, SearchResult, Transport as Carrier,
-    evaluate,
+    evaluate, find_legs,
 };
 use crate::progress::Instant;
 use crate::scene::Tool;
@@ -160,8 +160,8 @@ fn legs<'a>(board: &Blackboard<'a>, most: usize, count: usize) -> Vec<Legs<'a>> 
     // The sort is stable, so that ties keep their order.
     all.sort_by(|a, b| a.1.least().total_cmp(&b.1.least()));
     let best = all.iter().take(TOOLS);
-    let ways =
-        best.flat_map(|(tool, one)| one.legs(most, count).into_iter().map(|legs| (*tool, legs)));
+    let ways = best
+        .flat_map(|(tool, one)| find_legs(one, most, count).into_iter().map(|legs| (*tool, legs)));
     // If the grid is too coarse to distinguish a goal from the start, no leg is needed.
     ways.filter(|(_, legs)| !legs.is_empty()).collect()
 }

@@ -117,7 +117,7 @@ fn wrong_kinds_of_values() {
     t.yaml:13:8: error: expected `all` or a list of 1 to 64 tools, found the text "every"
       help: write a list: [every]
     t.yaml:14:36: error: expected `principal`, a number of directions from 1 to 64 or a list of 1 to 64 angles in degrees, found an empty map
-    t.yaml:14:76: error: expected a number of pushes from 1 to 16, found the number 1.5
+    t.yaml:14:76: error: expected a number of pushes from 1 to 64, found the number 1.5
       help: write a whole number
     "#);
 }
@@ -139,7 +139,7 @@ fn numbers_out_of_range() {
       help: lengths are in metres: 50 mm is 0.05
     t.yaml:14:67: error: expected a speed in m/s from 0.01 to 1, found the number 10
       help: 10 cm/s is 0.10
-    t.yaml:14:82: error: expected a number of pushes from 1 to 16, found the number 99
+    t.yaml:14:82: error: expected a number of pushes from 1 to 64, found the number 99
       help: three pushes move an object around a corner
     "#);
 }
@@ -151,7 +151,7 @@ fn numbers_that_no_computer_holds() {
       help: lengths are in metres: 50 mm is 0.05
     t.yaml:7:13: error: expected a mass in kg from 0.001 to 1000, found a number beyond 1e308
       help: masses are in kilograms: 250 g is 0.25
-    t.yaml:14:83: error: expected a number of pushes from 1 to 16, found the text "nan"
+    t.yaml:14:83: error: expected a number of pushes from 1 to 64, found the text "nan"
       help: three pushes move an object around a corner
     "#);
     let file = r#"{"schema_version": 1, "kind": "plan", "model": 1e999}"#;
