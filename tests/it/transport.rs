@@ -71,6 +71,38 @@ pushes: {length: 0.3, max_count: 12, grip_yaws_deg: [0, 90]}
 goal: {object: crate, position: [0.95, 0.00], tolerance: 0.02}
 ";
 
+const SWAP: &str = "
+description: Two boxes exchange their places in a closed yard.
+scene:
+  table: {friction: 0.4}
+  objects:
+    - {name: one, shape: {cuboid: {size: [0.06, 0.06, 0.05]}}, mass: 0.2, friction: 0.3, position: [0.45, 0.12]}
+    - {name: two, shape: {cuboid: {size: [0.06, 0.06, 0.05]}}, mass: 0.2, friction: 0.3, position: [0.45, -0.12]}
+  obstacles:
+    - {name: front, size: [0.02, 0.80, 0.08], position: [0.30, 0.00]}
+    - {name: back, size: [0.02, 0.80, 0.08], position: [0.90, 0.00]}
+robot: {reach: {min: 0, max: 1.5}, base: none}
+tools: [plate]
+pushes: {length: 0.3, max_count: 12, grip_yaws_deg: [0, 90]}
+goal:
+  - {object: one, position: [0.45, -0.12], tolerance: 0.02}
+  - {object: two, position: [0.45, 0.12], tolerance: 0.02}
+";
+
+const BEHIND: &str = "
+description: A tool that stays down goes around a box and pushes it back.
+scene:
+  table: {friction: 0.4}
+  objects:
+    - {name: box, shape: {cuboid: {size: [0.07, 0.07, 0.05]}}, mass: 0.2, friction: 0.3, position: [0.60, 0.00]}
+  obstacles:
+    - {name: left, size: [0.40, 0.02, 0.08], position: [0.60, 0.25]}
+robot: {reach: {min: 0, max: 1.5}, base: none, home: [0.40, 0.00]}
+tools: [plate]
+pushes: {form: chained, length: 0.4, max_count: 12}
+goal: {object: box, position: [0.48, 0.00], tolerance: 0.02}
+";
+
 /// Returns the shipped tools and an upright plate that comes from above.
 fn library() -> ToolLibrary {
     let shape = Shape::Cuboid { size: [0.03, 0.06, 0.06] };
@@ -101,6 +133,25 @@ fn a_plan_of_nine_pushes_works_as_written() {
     let solution = planner.solve(&task(CORRIDOR), &library()).unwrap();
     assert_eq!(solution.status, PlanStatus::Solved);
     assert!(solution.plans[0].plan.steps.len() > 6, "{}", solution.plans[0].plan.steps.len());
+}
+
+#[test]
+fn boxes_that_exchange_places_are_parked() {
+    let planner = Planner::for_effort(Effort::Draft).unwrap().build();
+    let solution = planner.solve(&task(SWAP), &library()).unwrap();
+    assert_eq!(solution.status, PlanStatus::Solved);
+    // One box must leave its place before the other comes, and go to the other's.
+    assert!(solution.plans[0].plan.steps.len() > 3, "{}", solution.plans[0].plan.steps.len());
+}
+
+#[test]
+fn a_tool_that_stays_down_goes_around() {
+    let planner = Planner::for_effort(Effort::Draft).unwrap().build();
+    let solution = planner.solve(&task(BEHIND), &library()).unwrap();
+    assert_eq!(solution.status, PlanStatus::Solved);
+    let steps = &solution.plans[0].plan.steps;
+    // Aside, past the box, behind it, and back.
+    assert!(steps.len() >= 4, "{}", steps.len());
 }
 
 #[test]

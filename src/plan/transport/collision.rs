@@ -2,11 +2,8 @@
 
 use crate::geometry::{Grid, Vector};
 
-use super::lattice::Solid;
+use super::lattice::{Shift, Solid};
 use super::room::Room;
-
-/// Displacement of a group from its start, in columns and rows of the grid.
-pub(super) type Shift = [i16; 2];
 
 /// Relative displacements at which two bodies are too close to each other.
 pub(super) struct Collisions {

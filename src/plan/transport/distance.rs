@@ -2,9 +2,9 @@
 
 use crate::geometry::Frontier;
 
-use super::collision::Shift;
 use super::group::{Group, ROOMY};
 use super::held::{Held, made_by};
+use super::lattice::Shift;
 
 /// Cost of a metre of transport, in pushes.
 pub(super) const METRE: f64 = 1.0;

@@ -6,9 +6,8 @@ use crate::{
     task::{Demand, End, Goal},
 };
 
-use super::collision::Shift;
-use super::lattice::{Extent, Solid};
-use super::room::tool_solids;
+use super::lattice::{Extent, Shift, Solid};
+use super::tool_solids::tool_solids;
 use crate::plan::{CandidatePush, SET_DOWN_CLEARANCE, Start, Workspace};
 
 /// Clearance between a carried object and fixed bodies, metres: the error of an object after two
@@ -235,8 +234,8 @@ fn clear(
     clear
 }
 
-/// Returns the columns and rows of a step along a heading (radians), and its direction; `None` if no
-/// neighbour is there.
+/// Returns the columns and rows of a step along a heading (radians), and its direction; `None`
+/// without a neighbour there.
 pub(super) fn step_of(heading: f64) -> Option<([i32; 2], Vector)> {
     let ahead = Vector::new(heading.cos(), heading.sin());
     let step = [ahead.x.round() as i32, ahead.y.round() as i32];

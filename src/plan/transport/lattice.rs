@@ -9,6 +9,9 @@ const SPACING: f64 = 0.01;
 /// Maximum number of places along a side; a larger scene gets a coarser grid.
 const MOST_PLACES: usize = 256;
 
+/// Displacement of a group from its start, in columns and rows of the grid.
+pub(super) type Shift = [i16; 2];
+
 /// Solid that moves with a carried object: one of its own, or one of the tool behind it.
 #[derive(Clone, Debug)]
 pub(super) struct Solid {

@@ -2,7 +2,7 @@
 
 use crate::geometry::Vector;
 
-use super::collision::Shift;
+use super::lattice::Shift;
 use super::moves::{Move, Train, pushing, train_after};
 use super::reach::Transport;
 

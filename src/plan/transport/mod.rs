@@ -21,6 +21,7 @@ mod reach;
 mod room;
 mod sequence;
 mod station;
+mod tool_solids;
 mod travel;
 
 pub use follow::{Follow, FollowSettings, Followed};

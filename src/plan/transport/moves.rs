@@ -2,9 +2,9 @@
 
 use crate::geometry::Vector;
 
-use super::collision::Shift;
 use super::distance::SHORTEST;
 use super::group::{Group, Hold};
+use super::lattice::Shift;
 use super::reach::Transport;
 use super::travel::Flood;
 

@@ -6,10 +6,11 @@ use crate::geometry::{Grid, Vector};
 use crate::plan::Workspace;
 use crate::scene::Situation;
 
-use super::collision::{Collisions, Shift};
+use super::collision::Collisions;
 use super::distance::Distances;
 use super::group::{Group, Hold, groups, holds, step_of};
 use super::held::Held;
+use super::lattice::Shift;
 use super::room::{BESIDE, Room};
 use super::travel::{Flood, Floor};
 
@@ -60,7 +61,8 @@ pub struct Transport<'a> {
 
 impl<'a> Transport<'a> {
     /// Creates the transport with one tool, with these grip yaws (radians) and pushes of at most
-    /// `longest` metres. A tool that stays down begins at `home`. Returns `None` if a goal's object has no path even without other objects.
+    /// `longest` metres. A tool that stays down begins at `home`. Returns `None` if a goal's object
+    /// has no path even without other objects.
     pub fn new(
         workspace: Workspace<'a>,
         situation: &'a Situation,
@@ -171,8 +173,8 @@ impl<'a> Transport<'a> {
         Some(floor.flood(from, pushed, (&tables, shifts)))
     }
 
-    /// Returns the corners of the way of a tool that stays down to a position; empty for a tool that
-    /// comes from above, and `None` if there is no way.
+    /// Returns the corners of the way of a tool that stays down to a position; `None` if there is no
+    /// way. A tool that comes from above has no corners.
     pub(super) fn travel(&self, flood: Option<&Flood>, to: Vector) -> Option<Vec<Vector>> {
         match (&self.floor, flood) {
             (Some(floor), Some(flood)) => floor.corners(flood, to),

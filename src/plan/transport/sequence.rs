@@ -10,15 +10,15 @@ use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap, HashSet};
 use std::rc::Rc;
 
-use super::collision::Shift;
 use super::distance::{METRE, Sample};
+use super::lattice::Shift;
 use super::legs::{Failed, Leg, is_like, legs_of};
 use super::moves::{MOVERS, Move, moves, pushing, tool_after};
 use super::reach::Transport;
 use super::travel::Flood;
 
-/// Maximum numbers of expanded states, without and with pushes that carry several groups. The former
-/// are safer.
+/// Maximum numbers of expanded states, without and with pushes that carry several groups. Pushes of
+/// one group are safer.
 const PASSES: [(usize, usize); 2] = [(300, 1), (3000, MOVERS)];
 
 /// Maximum number of states.

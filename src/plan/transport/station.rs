@@ -25,7 +25,7 @@ const LONGER: f64 = 0.05;
 #[derive(Clone)]
 pub(super) struct Station {
     pub state: State,
-    /// The same state for other plausible physics.
+    /// States for other plausible physics.
     pub others: Vec<State>,
     /// Number of pushes so far.
     pub pushes: usize,
@@ -38,7 +38,7 @@ pub(super) struct Station {
 pub(super) enum Lost {
     /// No push is feasible.
     Infeasible,
-    /// All pushes end elsewhere.
+    /// Every push ends elsewhere.
     Off,
 }
 

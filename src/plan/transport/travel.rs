@@ -5,7 +5,8 @@ use std::collections::VecDeque;
 
 use crate::geometry::{Grid, Vector};
 
-use super::collision::{Collisions, Shift};
+use super::collision::Collisions;
+use super::lattice::Shift;
 
 /// Number of steps by which a tool backs away from the group that it has pushed.
 const BACK: usize = 2;
