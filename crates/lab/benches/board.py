@@ -21,7 +21,7 @@ OURS = [sys.executable, "-m", "pushplan.board", "player", "--effort"]
 PROGRAMS = [
     ("draft", [*OURS, "draft"], {"seconds": 300.0, "rollouts": None}),
     ("standard", [*OURS, "standard"], {"seconds": 300.0, "rollouts": None}),
-    ("sampler", [sys.executable, SAMPLER], {"seconds": 300.0, "rollouts": 3000.0}),
+    ("sampler", [sys.executable, SAMPLER], {"seconds": 300.0, "rollouts": 1200.0}),
 ]
 
 

@@ -69,6 +69,8 @@ pub const TABLES: &[Published] = &[
         "python examples/pushworld.py --out runs/pushworld", &[
             ("", ALL, &["solved"]),
         ]),
+    table("tool-tasks", "tool-tasks.md", (30, 260, "tasks"), PLANS,
+        "python crates/lab/benches/board.py --out runs/board", &[]),
     table("robot-arms", "robot-arms.md", (15, 39, "tasks an arm"), PLANS,
         "python crates/lab/benches/arms.py --effort draft --out runs/arms", &[
             ("", ALL, &["pinocchio_agrees"]),
