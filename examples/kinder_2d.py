@@ -22,6 +22,7 @@ import numpy.typing as npt
 import shapely  # type: ignore[import-not-found,import-untyped,unused-ignore]
 from _kinder import Episode, State
 from _kinder_hook import HookGame
+from _kinder_push import ButtonGame
 from _kinder_stick import StickGame
 from _tee import PIXEL, Board, Floats, Goal, Way, play, pushes
 
@@ -31,6 +32,7 @@ import pushplan
 STEPS = {
     "DynPushT2D-t1": 3000,
     **{f"DynPushPullHook2D-{variant}": 500 for variant in ("o0", "o1", "o5")},
+    "PushPullHook2D": 3000,
     **{f"StickButton2D-{variant}": 3000 for variant in ("b1", "b2", "b3", "b5", "b10")},
 }
 #: Pixels in a unit of the environment.
@@ -253,13 +255,15 @@ def main() -> None:
         if fit.support is None or fit.friction is None:
             raise SystemExit("the recorded pushes do not determine support and friction")
         support, friction = fit.support, fit.friction
-    kind, variant = options.environment.split("-")
+    kind, _, variant = options.environment.partition("-")
     for seed in seeds:
-        game: TeeGame | HookGame | StickGame
+        game: TeeGame | HookGame | StickGame | ButtonGame
         if kind == "DynPushT2D":
             game = TeeGame(seed, steps, support, friction)
         elif kind == "DynPushPullHook2D":
             game = HookGame(variant, seed, steps, support)
+        elif kind == "PushPullHook2D":
+            game = ButtonGame(seed, steps)
         else:
             game = StickGame(variant, seed, steps)
         game.play()
