@@ -10,12 +10,15 @@ import itertools
 import time
 
 import numpy as np
+import numpy.typing as npt
 import shapely  # type: ignore[import-not-found,import-untyped,unused-ignore]
 from _kinder import Episode
 from _kinder_hook import Box, Floats, at, corners, graph_of
 from scipy.sparse.csgraph import (  # type: ignore[import-not-found,import-untyped,unused-ignore]
     dijkstra,
 )
+
+Mask = npt.NDArray[np.bool_]
 
 #: Steps of the robot: change of x and y, of the heading, and of the arm.
 STEP, TURN, REACH = 0.05, np.pi / 16, 0.1
@@ -92,7 +95,7 @@ class ButtonGame(Episode):
             found.append(corners(self.hook_boxes(), turned))
         return np.concatenate(found, axis=1)
 
-    def free(self, poses: Floats, hook: Floats | None, things: shapely.Geometry) -> Floats:
+    def free(self, poses: Floats, hook: Floats | None, things: shapely.Geometry) -> Mask:
         """Returns which poses keep clear of things, walls and the table."""
         radius = self.state["robot"]["base_radius"]
         x, y = poses[:, 0], poses[:, 1]
@@ -105,7 +108,7 @@ class ButtonGame(Episode):
         inside &= (shapes[..., 0] < WIDE - edge).all(axis=(1, 2))
         inside &= (shapes[..., 1] < HIGH - edge).all(axis=(1, 2))
         shapely.prepare(things)
-        near = shapely.dwithin(shapely.polygons(shapes), things, CLEAR).any(axis=1)
+        near = np.any(shapely.dwithin(shapely.polygons(shapes), things, CLEAR), axis=1)
         near |= shapely.dwithin(shapely.points(poses[index, :2]), things, radius + CLEAR)
         fine[index[near | ~inside]] = False
         return fine
@@ -126,14 +129,14 @@ class ButtonGame(Episode):
         graph = graph_of(open_poses.reshape(shape))
         steps, before = dijkstra(graph, indices=start, return_predecessors=True)
         best: tuple[float, int, int] | None = None
-        allowed = self.free(np.array(goals), hook, things) if goals else []
-        for index in np.flatnonzero(allowed):
+        allowed = self.free(np.array(goals), hook, things) if goals else np.zeros(0, bool)
+        for index in map(int, np.flatnonzero(allowed)):
             goal = goals[index]
             near = np.abs(poses[:, :2] - goal[:2]).max(axis=1) < GRID
             near &= np.abs(np.angle(np.exp(1j * (poses[:, 2] - goal[2])))) < 2 * np.pi / ANGLES
-            for one in np.flatnonzero(near & np.isfinite(steps)):
+            for one in map(int, np.flatnonzero(near & np.isfinite(steps))):
                 if best is None or steps[one] < best[0]:
-                    best = (float(steps[one]), int(one), int(index))
+                    best = (float(steps[one]), one, index)
         if best is None:
             return None
         way = [best[1]]
