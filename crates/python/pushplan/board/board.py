@@ -110,7 +110,7 @@ class BoardTask:
         return judged(task, hidden, plan, self.new_tools)
 
     def witness(self) -> dict[str, Any]:
-        """Returns the plan that solves the task, as a program would submit it."""
+        """Returns the plan that solves the task, in the form of a submission."""
         return {"plan": {"steps": self.steps}, "tools": list(self.own_tools)}
 
 
@@ -234,8 +234,8 @@ def _packed(step: dict[str, Any]) -> Any:
     """Returns a push as a short list, and other steps unchanged."""
     if "push" not in step:
         return step
-    what = step["push"]
-    return [what["tool"], what["grip_yaw"], *what["start"], what["direction"], what["length"]]
+    push = step["push"]
+    return [push["tool"], push["grip_yaw"], *push["start"], push["direction"], push["length"]]
 
 
 def _unpacked(step: Any) -> dict[str, Any]:

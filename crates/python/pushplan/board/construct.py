@@ -124,20 +124,20 @@ def _step(task: Task, stroke: Stroke, new_tools: list[ToolFile]) -> dict[str, An
     if plan.violations:
         return None
     [step] = copy.deepcopy(plan.steps)
-    what = step["push"]
-    what["start"] = [round(x, 4) for x in what["start"]]
+    details = step["push"]
+    details["start"] = [round(x, 4) for x in details["start"]]
     for key in ("direction", "length", "grip_yaw"):
-        what[key] = round(what[key], 6)
+        details[key] = round(details[key], 6)
     return step
 
 
 def _shifted(step: dict[str, Any], by: float) -> dict[str, Any]:
     """Returns a push that starts farther to its left."""
     found = copy.deepcopy(step)
-    what = found["push"]
-    x, y = what["start"]
-    turn = what["direction"]
-    what["start"] = [x - by * math.sin(turn), y + by * math.cos(turn)]
+    details = found["push"]
+    x, y = details["start"]
+    turn = details["direction"]
+    details["start"] = [x - by * math.sin(turn), y + by * math.cos(turn)]
     return found
 
 

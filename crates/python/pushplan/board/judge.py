@@ -1,7 +1,7 @@
 """Judge of submitted plans: the rules of the task, then a replay in MuJoCo.
 
-Of a submission only the steps and new tools count. Task and offered tools are those of the board,
-whatever the submitted plan file contains.
+Only the steps and the new tools of a submission count. The board supplies the task and all other
+tools.
 """
 
 from __future__ import annotations

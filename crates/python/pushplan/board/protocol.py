@@ -141,7 +141,7 @@ def schema() -> dict[str, Any]:
             },
             "budget": {
                 "type": "object",
-                "description": "Limits; null is none. After `seconds` the answer counts as unknown.",
+                "description": "Limits; null is none. After `seconds` an answer counts as unknown.",
                 "properties": {"seconds": number, "rollouts": number},
             },
         },
