@@ -9,6 +9,7 @@ with the friction of the finger from twenty own pushes of a T in other episodes.
     pip install pushplan kindergarden
     python examples/kinder_2d.py --seeds 1000 1050
     python examples/kinder_2d.py DynPushPullHook2D-o5 --seeds 1000 1050
+    python examples/kinder_2d.py PushPullHook2D --seeds 1000 1050
 """
 
 import argparse
@@ -273,7 +274,8 @@ def main() -> None:
     done = [game.steps for game in games if game.done]
     each = sum(game.seconds for game in games) / max(sum(game.pushes for game in games), 1)
     most = f"median {np.median(done):.0f}, maximum {max(done)} steps" if done else "none"
-    print(f"{len(done)} of {len(games)} reached, {most}; {each:.2f} s of processor time a push")
+    count = f"{options.environment}: {len(done)} of {len(games)} reached"
+    print(f"{count}, {most}; {each:.2f} s of processor time a push")
 
 
 if __name__ == "__main__":

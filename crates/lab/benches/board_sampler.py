@@ -6,9 +6,11 @@
 
 Needs the packages `pushplan` and `mujoco`. One search looks for one push of one object to a place
 or into a region. Goals of several objects are taken in their order. If no push reaches a goal, the
-best one is made in MuJoCo, and the next search begins at its end. Joint goals, levers and new tools
-are beyond it: the answer is then `unknown`, as after the last allowed push. It claims no
-impossibility. The only budget is a number of rollouts, each of which tries all lengths of a push.
+best one is made in MuJoCo, and the next search begins at its end. A plan counts only if it keeps
+the rules and its pushes work in the exported scene at 0.25 ms too. Joint goals, levers and new
+tools are beyond it: the answer is then `unknown`, as after the last allowed push. It measures no
+forces and claims no impossibility. The only budget is a number of rollouts, each of which tries all
+lengths of a push.
 """
 
 import argparse
@@ -19,7 +21,7 @@ import time
 
 import numpy as np
 import pushplan
-from pushplan.board.judge import plan_of
+from pushplan.board.judge import broken_rule, plan_of
 from pushplan.board.replay import replayed
 from sampler import FIRST, NEXT, STEP, Sampler
 
@@ -89,13 +91,13 @@ def searched(task, most, seed):
                 error, *best = sampler.results[0]
             made = step(*(sampler.plan or best))
             end = replayed(plan_of(single, [made]))
-            if not end.is_sound:
+            if not end.is_sound or (sampler.plan and end.failure):
                 return None, spent
             steps.append(made)
             poses = np.array([end.ends[name] for name in task.objects])
             if sampler.plan:
                 break
-    return steps, spent
+    return None if broken_rule(plan_of(task, steps)) else steps, spent
 
 
 def answered(request, seed):

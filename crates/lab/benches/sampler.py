@@ -227,6 +227,8 @@ class Sampler:
                 plan = pushplan.Plan.of(self.task, tool, [push], grip_yaw=yaw)
             except pushplan.PushplanError:
                 continue
+            if plan.violations:
+                continue
             if (tool, yaw) not in self.scenes:
                 self.scenes[tool, yaw] = Scene(self.task, plan)
             [push] = plan.pushes
