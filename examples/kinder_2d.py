@@ -9,6 +9,7 @@ with the friction of the finger from twenty own pushes of a T in other episodes.
     pip install pushplan kindergarden
     python examples/kinder_2d.py --seeds 1000 1050
     python examples/kinder_2d.py DynPushPullHook2D-o5 --seeds 1000 1050
+    python examples/kinder_2d.py PushPullHook2D --seeds 1000 1050
 """
 
 import argparse
@@ -22,6 +23,7 @@ import numpy.typing as npt
 import shapely  # type: ignore[import-not-found,import-untyped,unused-ignore]
 from _kinder import Episode, State
 from _kinder_hook import HookGame
+from _kinder_push import ButtonGame
 from _kinder_stick import StickGame
 from _tee import PIXEL, Board, Floats, Goal, Way, play, pushes
 
@@ -31,6 +33,7 @@ import pushplan
 STEPS = {
     "DynPushT2D-t1": 3000,
     **{f"DynPushPullHook2D-{variant}": 500 for variant in ("o0", "o1", "o5")},
+    "PushPullHook2D": 3000,
     **{f"StickButton2D-{variant}": 3000 for variant in ("b1", "b2", "b3", "b5", "b10")},
 }
 #: Pixels in a unit of the environment.
@@ -253,13 +256,15 @@ def main() -> None:
         if fit.support is None or fit.friction is None:
             raise SystemExit("the recorded pushes do not determine support and friction")
         support, friction = fit.support, fit.friction
-    kind, variant = options.environment.split("-")
+    kind, _, variant = options.environment.partition("-")
     for seed in seeds:
-        game: TeeGame | HookGame | StickGame
+        game: TeeGame | HookGame | StickGame | ButtonGame
         if kind == "DynPushT2D":
             game = TeeGame(seed, steps, support, friction)
         elif kind == "DynPushPullHook2D":
             game = HookGame(variant, seed, steps, support)
+        elif kind == "PushPullHook2D":
+            game = ButtonGame(seed, steps)
         else:
             game = StickGame(variant, seed, steps)
         game.play()
@@ -269,7 +274,8 @@ def main() -> None:
     done = [game.steps for game in games if game.done]
     each = sum(game.seconds for game in games) / max(sum(game.pushes for game in games), 1)
     most = f"median {np.median(done):.0f}, maximum {max(done)} steps" if done else "none"
-    print(f"{len(done)} of {len(games)} reached, {most}; {each:.2f} s of processor time a push")
+    count = f"{options.environment}: {len(done)} of {len(games)} reached"
+    print(f"{count}, {most}; {each:.2f} s of processor time a push")
 
 
 if __name__ == "__main__":

@@ -227,6 +227,8 @@ class Sampler:
                 plan = pushplan.Plan.of(self.task, tool, [push], grip_yaw=yaw)
             except pushplan.PushplanError:
                 continue
+            if plan.violations:
+                continue
             if (tool, yaw) not in self.scenes:
                 self.scenes[tool, yaw] = Scene(self.task, plan)
             [push] = plan.pushes
@@ -276,13 +278,15 @@ class Sampler:
         return tool, yaw, way + self.rng.normal(0, 0.05), offset + self.rng.normal(0, 0.01)
 
     def search(self, first):
-        """Searches until the `first` plan, or through all candidates."""
-        results = self.tried(self.aligned(), FIRST, first)
+        """Searches until the `first` plan, or through all candidates; `results` are in order of
+        the errors."""
+        self.results = results = self.tried(self.aligned(), FIRST, first)
         if not (first and self.plan):
             best = [words for _, words, _, _ in results[:AROUND]]
             around = [self.near(words) for words in best for _ in range(NEXT // AROUND)]
             results += self.tried(around, self.rollouts + NEXT, first)
-            self.settled(sorted(results, key=lambda one: one[0]))
+            self.results = sorted(results, key=lambda one: one[0])
+            self.settled(self.results)
         return self
 
 

@@ -69,6 +69,13 @@ pub const TABLES: &[Published] = &[
         "python examples/pushworld.py --out runs/pushworld", &[
             ("", ALL, &["solved"]),
         ]),
+    table("kinder", "benchmarks.md", (20, 50, "episodes of an environment"), PLANS,
+        "for name in DynPushPullHook2D-o0 DynPushPullHook2D-o1 DynPushPullHook2D-o5 \
+         PushPullHook2D; do python examples/kinder_2d.py $name --seeds 1000 1050; done", &[
+            ("", ALL, &["reached, median"]),
+        ]),
+    table("tool-tasks", "tool-tasks.md", (30, 260, "tasks"), PLANS,
+        "python crates/lab/benches/board.py --out runs/board", &[]),
     table("robot-arms", "robot-arms.md", (15, 49, "tasks an arm"), PLANS,
         "python crates/lab/benches/arms.py --effort draft --out runs/arms", &[
             ("", ALL, &["pinocchio_agrees"]),
