@@ -173,7 +173,7 @@ impl<'a> Transport<'a> {
         Some(floor.flood(from, pushed, (&tables, shifts)))
     }
 
-    /// Returns the corners of the way of a tool that stays down to a position; `None` if there is no
+    /// Returns the corners of the way of a tool that stays down to a position; `None` without a
     /// way. A tool that comes from above has no corners.
     pub(super) fn travel(&self, flood: Option<&Flood>, to: Vector) -> Option<Vec<Vector>> {
         match (&self.floor, flood) {
