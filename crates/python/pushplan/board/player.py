@@ -9,12 +9,12 @@ from typing import Any, Literal
 
 from .. import PushplanError, Solution, Task, Tool, ToolLibrary, design, solve
 
-__all__ = ["Effort", "answered", "play"]
-
-Effort = Literal["draft", "standard", "thorough"]
+__all__ = ["answered", "play"]
 
 
-def answered(request: dict[str, Any], effort: Effort) -> dict[str, Any]:
+def answered(
+    request: dict[str, Any], effort: Literal["draft", "standard", "thorough"]
+) -> dict[str, Any]:
     """Returns the answer to a request."""
     began = time.process_time()
     found: dict[str, Any] = {"id": request["id"], "status": "unknown"}
@@ -40,7 +40,7 @@ def answered(request: dict[str, Any], effort: Effort) -> dict[str, Any]:
     return found | {"cost": cost}
 
 
-def play(effort: Effort) -> None:
+def play(effort: Literal["draft", "standard", "thorough"]) -> None:
     """Answers the requests of the standard input until it ends."""
     for line in sys.stdin:
         print(json.dumps(answered(json.loads(line), effort)), flush=True)
