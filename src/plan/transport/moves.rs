@@ -184,8 +184,7 @@ fn advance(transport: &Transport, step: Shift, train: &mut Train, shifts: &[Shif
         if !transport.groups[mover].is_clear(at) {
             return false;
         }
-        for other in 0..transport.groups.len() {
-            let there = shifts[other];
+        for (other, &there) in shifts.iter().enumerate() {
             if train.at(other).is_some() || !transport.beside((mover, other)).meet(at, there) {
                 continue;
             }

@@ -58,6 +58,9 @@ struct Node {
     expanded: bool,
 }
 
+/// Samples of a path and its number of pushes.
+type SampledPath = (Vec<Sample>, usize);
+
 /// Entry of a queue: lowest key first, then the oldest.
 type Entry = Reverse<(u64, usize)>;
 
@@ -84,7 +87,8 @@ struct Sequences<'t, 'a> {
     known: HashMap<Vec<Shift>, f64>,
     old: HashSet<(u16, Shift)>,
     old_pairs: HashSet<(u16, Shift, u16, Shift)>,
-    paths: HashMap<(usize, Shift), Rc<(Vec<Sample>, usize)>>,
+    /// Shortest paths of groups from their displacements, with the numbers of pushes.
+    paths: HashMap<(usize, Shift), Rc<SampledPath>>,
 }
 
 /// Returns the legs of up to `count` plans with at most `most` pushes each.
