@@ -232,6 +232,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     add = parser.add_argument
     add("puzzles", nargs="*", type=Path, help="puzzle files, or folders of them")
+    add("--as-played", action="store_true", help="play with the agent, which stays down")
     add("--kind", choices=["goals", "swap", "heap"], help="generate puzzles of this kind")
     add("--objects", type=int, default=4, help="number of objects of generated puzzles")
     add("--count", type=int, default=20, help="number of generated puzzles")
@@ -257,7 +258,11 @@ def main():
     records, plans = [], []
     for name, text in texts.items():
         task = options.out / f"{name}.yaml"
-        task.write_text(pushworld.task_of(text, name, options.pushes).to_yaml())
+        agent = pushworld.agent_of(text, name) if options.as_played else None
+        if agent:
+            tool = options.out / f"tools/{agent.name}.yaml"
+            tool.write_text(json.dumps(agent.to_dict()))
+        task.write_text(pushworld.task_of(text, name, options.pushes, agent).to_yaml())
         if options.solve:
             record, plan = solve(options.solve, task, options.out / "plans", options)
             plans += [plan] if plan else []

@@ -12,7 +12,7 @@ const STAGE: &str = "<figure class=\"stage\" id=\"stage\">";
 
 /// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64, for the content security policy. A test compares
 /// the hashes, so that a release needs no hash function.
-const SCRIPT_HASH: &str = "j8oqK3i4vd1DMaY+ygaSvvcsAXhqj+UUPUVr+U89FUw=";
+const SCRIPT_HASH: &str = "ekbDToMbZXuN7wfnZt9j2hWdty4YmkKJNKT9zgg7xFw=";
 const STYLE_HASH: &str = "zXSw6BzXcyuVOPIi7jmn9KiwKyXUrtidXTt+/KEBizA=";
 
 /// SHA-256 of [`SOLID`], and of three.js after decompression.

@@ -65,8 +65,9 @@ pub const TABLES: &[Published] = &[
         "python examples/push_t.py --seeds 100000 100050", &[
             ("", ALL, &["covered"]),
         ]),
-    table("pushworld", "benchmarks.md", (30, 68, "puzzles"), PLANS,
-        "python examples/pushworld.py --out runs/pushworld", &[
+    table("pushworld", "benchmarks.md", (50, 196, "puzzles"), PLANS,
+        "for set in level1 'level1 --as-played' levels2to4; do python \
+         crates/lab/benches/puzzles.py $set --solve pushplan --mujoco python; done", &[
             ("", ALL, &["solved"]),
         ]),
     table("kinder", "benchmarks.md", (20, 50, "episodes of an environment"), PLANS,
