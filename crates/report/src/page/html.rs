@@ -16,7 +16,7 @@ const SCRIPT_HASH: &str = "ekbDToMbZXuN7wfnZt9j2hWdty4YmkKJNKT9zgg7xFw=";
 const STYLE_HASH: &str = "zXSw6BzXcyuVOPIi7jmn9KiwKyXUrtidXTt+/KEBizA=";
 
 /// SHA-256 of [`SOLID`], and of three.js after decompression.
-const SOLID_HASH: &str = "1vHu8YPVQQENrRJNBNvdERU1gvFB2XFBJ6BUJ6vPeSs=";
+const SOLID_HASH: &str = "VDcg20Zd+pQG9mvqnqIGZoPEsgIuJtaXWiLcWmhqYqg=";
 const THREE_HASH: &str = "1DAXuURetgEpYc3wVeanFNbtMNUCQJJKMDFxE8xxJxc=";
 
 /// Views of the table on a page.
