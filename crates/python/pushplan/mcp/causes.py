@@ -13,7 +13,7 @@ from typing import Any, Literal
 
 from .edits import MISSING, Edit, value_at
 
-__all__ = ["Changes", "Proposal", "by_cause"]
+__all__ = ["Changes", "Proposal", "by_cause", "general"]
 
 #: Subject of a change. `text`: the task was written wrongly; `plan`: limits of the plan; `robot`:
 #: abilities of the robot; `scene`: bodies on the table.
@@ -21,6 +21,10 @@ Changes = Literal["text", "plan", "robot", "scene"]
 
 #: Factors of a force, a reach or a length, because the stated values are rounded.
 _FACTORS = (1.0, 1.5, 2.5)
+#: Number of directions that is usually enough.
+_DIRECTIONS = 16
+#: Radii of slender hands, metres.
+_SLENDER = (0.03, 0.02)
 
 
 @dataclass(frozen=True)
@@ -47,6 +51,21 @@ def by_cause(cause: str, mapping: _Mapping) -> list[Proposal]:
     order = ["text", "plan", "robot", "scene"]
     found.sort(key=lambda one: order.index(one.changes))
     return [one for one in found if one.edits]
+
+
+def general(mapping: _Mapping) -> list[Proposal]:
+    """Returns proposals that relax the limits of the plan, for causes that name none."""
+    edits = []
+    if isinstance(mapping.get("tools"), list):
+        edits.append(_set(mapping, "tools", "all"))
+    count = value_at(mapping, "pushes.max_count")
+    more = (count if isinstance(count, int) else 3) + 2
+    edits.append(_set(mapping, "pushes.max_count", more))
+    directions = value_at(mapping, "pushes.directions")
+    if not isinstance(directions, int) or directions < _DIRECTIONS:
+        edits.append(_set(mapping, "pushes.directions", _DIRECTIONS))
+    found = [Proposal([edit], "plan", f"`{edit.path}` is too narrow") for edit in edits]
+    return [*found, Proposal(edits, "plan", "several limits of the plan are too narrow")]
 
 
 def _set(mapping: _Mapping, path: str, new: Any) -> Edit:
@@ -166,11 +185,11 @@ def _kept(match: _Found, mapping: _Mapping) -> list[Proposal]:
     return [Proposal(edits, "plan", "protected bodies obstruct every plan")]
 
 
-def _without(path: str, reason: str) -> Callable[..., list[Proposal]]:
-    def proposals(_: _Found, mapping: _Mapping) -> list[Proposal]:
-        return [Proposal([_set(mapping, path, "none")], "robot", reason)]
-
-    return proposals
+def _hand(_: _Found, mapping: _Mapping) -> list[Proposal]:
+    old = value_at(mapping, "robot.hand.radius")
+    wide = old if isinstance(old, float) else 0.05
+    edits = [_set(mapping, "robot.hand.radius", value) for value in _SLENDER if value < wide]
+    return [Proposal([edit], "robot", "the hand collides with bodies") for edit in edits]
 
 
 _NUMBER = r"(-?[0-9.]+(?:e-?[0-9]+)?)"
@@ -203,6 +222,5 @@ _CAUSES: list[tuple[str, Callable[[_Found, _Mapping], list[Proposal]]]] = [
     (rf"{_NAMES} obstructs? every plan; move or remove", _removed),
     (rf"(`.*) must be cleared first, which `pushes\.max_count` \d+ does not suffice", _removed),
     (rf"{_NAMES}, protected by `keep` or `keep_out`, obstructs", _kept),
-    (r"the hand or the handle of the tool collides", _without("robot.hand", "the hand collides")),
-    (r"the robot's base obstructs every plan", _without("robot.base", "the base is in the way")),
+    (r"the hand or the handle of the tool collides", _hand),
 ]

@@ -17,8 +17,8 @@ _PLAN = {
     "type": ["string", "object"],
 }
 _TOOLS = {
-    "description": "Tools besides the shipped ones, each a text of a tool file or an object with "
-    "its keys; see the resource pushplan://schema/tool.",
+    "description": "Tools in addition to the shipped ones, each a text of a tool file or an object "
+    "with its keys; see the resource pushplan://schema/tool.",
     "type": "array",
     "items": {"type": ["string", "object"]},
 }
@@ -65,7 +65,7 @@ PROPERTIES: dict[str, dict[str, Any]] = {
     },
     "verify": {
         "plan": _PLAN,
-        "replays": _whole("Minimum number of perturbed replays in each engine; default 8.", 0, 1000),
+        "replays": _whole("Minimum number of perturbed replays per engine; default 8.", 0, 1000),
         "seed": _SEED,
         "time_limit": _LIMIT,
     },

@@ -14,10 +14,10 @@ from typing import Any, Optional
 
 from pushplan import PushplanError, Solution, Task, ToolLibrary
 
-from .causes import Changes, Proposal, by_cause
+from .causes import Changes, Proposal, by_cause, general
 from .edits import MISSING, Edit, applied, split, value_at
 from .inputs import InputError, task_of
-from .units import scalings
+from .units import HUGE, LARGE, scalings
 
 __all__ = ["Repair", "Trial", "of_faults", "of_solution"]
 
@@ -26,6 +26,8 @@ ORDER = ["no_plan", "failed_verification", "partial", "fragile", "solved"]
 #: Maximum number of rounds of corrections of faults.
 ROUNDS = 6
 
+#: Maximum duration of the trial of a repair, seconds.
+TRIAL = 10.0
 #: Maximum number of alternatives in an answer.
 ALTERNATIVES = 2
 
@@ -57,7 +59,7 @@ class Trial:
         if self.solve is None or task is None or self.left() <= 0:
             return None
         try:
-            return self.solve(task, self.left()).status
+            return self.solve(task, min(self.left(), TRIAL)).status
         except (PushplanError, ValueError):
             return None
 
@@ -122,11 +124,9 @@ def of_faults(mapping: dict[str, Any], trial: Trial) -> list[Repair]:
 
 def of_solution(mapping: dict[str, Any], solution: Solution, trial: Trial) -> list[Repair]:
     """Returns repairs of a valid task without a plan; each has a better status than before."""
-    options = [
-        Proposal(edits, "text", f"lengths are metres, but these are probably {unit}")
-        for unit, edits in scalings(mapping, set())
-    ]
-    options += by_cause(solution.cause or "", mapping)
+    certain, likely = [_in_units(mapping, above) for above in (HUGE, LARGE)]
+    options = certain + by_cause(solution.cause or "", mapping)
+    options += [option for option in likely if option not in certain] + general(mapping)
     found: list[Repair] = []
     for option in options:
         if trial.left() <= 0:
@@ -142,6 +142,13 @@ def of_solution(mapping: dict[str, Any], solution: Solution, trial: Trial) -> li
             if status == "solved":
                 break
     return _best(found)
+
+
+def _in_units(mapping: dict[str, Any], above: float) -> list[Proposal]:
+    return [
+        Proposal(edits, "text", f"lengths are metres, but these are probably {unit}")
+        for unit, edits in scalings(mapping, set(), above)
+    ]
 
 
 def _best(found: list[Repair]) -> list[Repair]:

@@ -1,4 +1,4 @@
-"""Supervisor of the worker process: sends calls, passes progress on, and enforces the time limit."""
+"""Supervisor of the worker process: sends calls, reports progress, enforces the time limit."""
 
 from __future__ import annotations
 

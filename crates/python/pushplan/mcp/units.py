@@ -11,12 +11,14 @@ from pushplan import task_schema
 
 from .edits import Edit, Step, joined, leaves, split
 
-__all__ = ["SCALES", "is_length", "scalings"]
+__all__ = ["HUGE", "LARGE", "SCALES", "is_length", "scalings"]
 
 #: Units in metres that people write instead of metres.
 SCALES = {"millimetres": 0.001, "centimetres": 0.01}
 #: Length on a table above which a unit is in doubt, metres.
 LARGE = 1.5
+#: Length above which the unit is certainly another one, metres.
+HUGE = 3.0
 #: Usual lengths in metres by the last key of their path; otherwise `USUAL`.
 TYPICAL = {
     "position": 0.5, "home": 0.3, "max": 0.7, "min": 0.2, "tolerance": 0.02, "radius": 0.04,
@@ -58,7 +60,9 @@ def is_length(steps: list[Step]) -> bool:
     return any("metre" in text or "m/s" in text for text in texts)
 
 
-def scalings(mapping: dict[str, Any], faulty: set[str]) -> list[tuple[str, list[Edit]]]:
+def scalings(
+    mapping: dict[str, Any], faulty: set[str], above: float = LARGE
+) -> list[tuple[str, list[Edit]]]:
     """Returns edits that convert lengths, each with its unit, the most plausible ones first.
 
     Candidates convert all lengths, the large or faulty lengths with their neighbours in a list or
@@ -70,7 +74,7 @@ def scalings(mapping: dict[str, Any], faulty: set[str]) -> list[tuple[str, list[
         if isinstance(value, (int, float)) and not isinstance(value, bool)
         and math.isfinite(value) and is_length(steps)
     }  # fmt: skip
-    large = {path for path, value in lengths.items() if abs(value) > LARGE or path in faulty}
+    large = {path for path, value in lengths.items() if abs(value) > above or path in faulty}
     if not large:
         return []
     groups = [large, _beside(large, lengths), set(lengths)]
