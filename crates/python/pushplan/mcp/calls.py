@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, Optional, cast
 
 import pushplan
-from pushplan import Plan, Progress, Solution, Task, ToolLibrary
+from pushplan import Plan, Progress, Solution, Task
 
 from . import repairs
 from .declared import PROPERTIES
@@ -112,14 +112,12 @@ class _Arguments:
 
     def trial(self, effort: Optional[_Effort]) -> repairs.Trial:
         """Returns the means to verify repairs, with solving if an effort is given."""
-        solve = None
-        if effort is not None:
-            chosen = effort
-
-            def solve(task: Task, seconds: float) -> Solution:
-                return self.solve(task, chosen, seconds)
-
-        return repairs.Trial(self.library, solve, self.begin + self.limit)
+        until = self.begin + self.limit
+        if effort is None:
+            return repairs.Trial(self.library, None, until)
+        return repairs.Trial(
+            self.library, lambda task, seconds: self.solve(task, effort, seconds), until
+        )
 
     def solve(self, task: Task, effort: _Effort, seconds: float) -> Solution:
         return pushplan.solve(
@@ -159,7 +157,8 @@ def _check(arguments: _Arguments) -> Answer:
         if given.faults and given.mapping is not None:
             return _invalid(given, repairs.of_faults(given.mapping, arguments.trial(None)))
     else:
-        given = {"tool": tool_of, "plan": plan_of}[kind](arguments.given.get(kind))
+        read: Callable[[object], Given[Any]] = tool_of if kind == "tool" else plan_of
+        given = read(arguments.given.get(kind))
     return _invalid(given) if given.faults else _answer("valid", {"faults": []})
 
 

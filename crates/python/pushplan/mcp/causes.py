@@ -21,6 +21,8 @@ Changes = Literal["text", "plan", "robot", "scene"]
 
 #: Factors of a force, a reach or a length, because the stated values are rounded.
 _FACTORS = (1.0, 1.5, 2.5)
+#: Factors of the robot's force if the needed force is unknown.
+_STRONGER = (4.0, 16.0)
 #: Number of directions that is usually enough.
 _DIRECTIONS = 16
 #: Radii of slender hands, metres.
@@ -54,7 +56,7 @@ def by_cause(cause: str, mapping: _Mapping) -> list[Proposal]:
 
 
 def general(mapping: _Mapping) -> list[Proposal]:
-    """Returns proposals that relax the limits of the plan, for causes that name none."""
+    """Returns proposals that relax the limits of plan and robot, for causes that name none."""
     edits = []
     if isinstance(mapping.get("tools"), list):
         edits.append(_set(mapping, "tools", "all"))
@@ -65,7 +67,13 @@ def general(mapping: _Mapping) -> list[Proposal]:
     if not isinstance(directions, int) or directions < _DIRECTIONS:
         edits.append(_set(mapping, "pushes.directions", _DIRECTIONS))
     found = [Proposal([edit], "plan", f"`{edit.path}` is too narrow") for edit in edits]
-    return [*found, Proposal(edits, "plan", "several limits of the plan are too narrow")]
+    found.append(Proposal(edits, "plan", "several limits of the plan are too narrow"))
+    force = value_at(mapping, "robot.max_force")
+    if isinstance(force, (int, float)) and not isinstance(force, bool):
+        for factor in _STRONGER:
+            edit = _set(mapping, "robot.max_force", _round(force * factor))
+            found.append(Proposal([edit], "robot", "the robot may be too weak"))
+    return found
 
 
 def _set(mapping: _Mapping, path: str, new: Any) -> Edit:
@@ -220,7 +228,7 @@ _CAUSES: list[tuple[str, Callable[[_Found, _Mapping], list[Proposal]]]] = [
     (r"no allowed tool works, but `([^`]+)` does", _tool),
     (rf"is enclosed by .*; remove {_NAMES}", _removed),
     (rf"{_NAMES} obstructs? every plan; move or remove", _removed),
-    (rf"(`.*) must be cleared first, which `pushes\.max_count` \d+ does not suffice", _removed),
+    (r"(`.*) must be cleared first, which `pushes\.max_count` \d+ does not suffice", _removed),
     (rf"{_NAMES}, protected by `keep` or `keep_out`, obstructs", _kept),
     (r"the hand or the handle of the tool collides", _hand),
 ]

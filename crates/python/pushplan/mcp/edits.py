@@ -10,7 +10,7 @@ import re
 from dataclasses import asdict, dataclass
 from typing import Any, Literal, Union
 
-__all__ = ["Edit", "MISSING", "Step", "applied", "joined", "leaves", "split", "value_at"]
+__all__ = ["MISSING", "Edit", "Step", "applied", "joined", "leaves", "split", "value_at"]
 
 Step = Union[str, int]
 _PART = re.compile(r"([^.\[\]]+)|\[(\d+)\]")

@@ -118,11 +118,11 @@ def _read(
             f"`{name}` must be a text (YAML) or an object with the keys of its file, found "
             f"{_kind(given)}; see the resource pushplan://schema/task"
         )
+    reason = ""
     try:
         mapping = loaded(given)
     except UnreadableText as error:
-        mapping = None
-        reason = str(error)
+        mapping, reason = None, str(error)
     if mapping is not None:
         refused = _refused(mapping)
         if refused:

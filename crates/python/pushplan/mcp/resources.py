@@ -55,4 +55,4 @@ def _tool(name: str) -> Callable[[], str]:
 
 
 def _page() -> str:
-    return packaged.files(__package__).joinpath(PAGE).read_text(encoding="utf-8")
+    return packaged.files("pushplan.mcp").joinpath(PAGE).read_text(encoding="utf-8")

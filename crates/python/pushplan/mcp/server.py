@@ -7,7 +7,7 @@ import json
 import re
 import sys
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Any, Optional, cast
 
 import anyio
 import mcp_types as types
@@ -67,7 +67,8 @@ async def _serve(limits: Limits, folder: Optional[Folder]) -> None:
         on_list_resources=handlers.list_resources,
         on_read_resource=handlers.read_resource,
     )
-    lines: Any = anyio.wrap_file(_Lines(sys.stdin.buffer, encoding="utf-8", errors="replace"))
+    text = io.TextIOWrapper(sys.stdin.buffer, encoding="utf-8", errors="replace")
+    lines: Any = anyio.AsyncFile(cast(Any, _Lines(text)))
     try:
         async with stdio_server(stdin=lines) as (read, write):
             await server.run(read, write, server.create_initialization_options())
@@ -75,16 +76,20 @@ async def _serve(limits: Limits, folder: Optional[Folder]) -> None:
         await supervisor.close()
 
 
-class _Lines(io.TextIOWrapper):
+class _Lines:
     """Lines of stdin; a line that is too long becomes a request of an unknown method."""
 
-    def readline(self, size: int = -1, /) -> str:
-        line = super().readline(LONGEST)
+    def __init__(self, text: io.TextIOBase) -> None:
+        self.text = text
+
+    def readline(self) -> str:
+        """Returns the next line, empty at the end."""
+        line = self.text.readline(LONGEST)
         if len(line) < LONGEST or line.endswith("\n"):
             return line
         head = line[:400]
         while line and not line.endswith("\n"):
-            line = super().readline(LONGEST)
+            line = self.text.readline(LONGEST)
         found = re.search(r'"id"\s*:\s*(\d{1,18}|"[\w-]{1,64}")', head)
         method = f"message longer than {LONGEST} characters"
         return f'{{"jsonrpc": "2.0", "id": {found[1] if found else 0}, "method": "{method}"}}\n'

@@ -119,9 +119,9 @@ def _pose(one: object, k: int, names: list[str], start: _Floats) -> _Floats:
     """Reads an observation: a list of poses, or an object with a pose for each name."""
     rows: list[Any]
     if isinstance(one, dict):
-        unknown = set(one) - set(names)
+        unknown = [name for name in one if name not in names]
         if unknown:
-            _fail(k, f"has no object `{sorted(map(str, unknown))[0]}`; use {', '.join(names)}")
+            _fail(k, f"names an unknown object `{unknown[0]}`; use {', '.join(names)}")
         rows = [one.get(name, [None] * 3) for name in names]
     elif isinstance(one, list) and len(one) == len(names):
         rows = one
@@ -154,7 +154,7 @@ def _written(motion: Motion) -> dict[str, Any]:
 
 def _predicted(now: Task, motion: Motion, threads: int) -> dict[str, Any]:
     """Returns the predicted poses after a motion, with the values of the task."""
-    pushes = []
+    pushes: list[list[float]] = []
     for x, y, _, to_x, to_y, _ in motion.end_effector.tolist():
         length = math.hypot(to_x - x, to_y - y)
         duration = motion.durations[len(pushes)]

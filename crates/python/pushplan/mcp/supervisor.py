@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from collections.abc import Awaitable, Callable
 from typing import Any, Optional
@@ -16,7 +17,7 @@ from .worker import stopped
 __all__ = ["Supervisor"]
 
 #: Time after the limit in which the planner may end by itself, seconds.
-GRACE = 5.0
+GRACE = 3.0
 #: Maximum size of an answer, bytes.
 LARGEST = 64 << 20
 
@@ -24,6 +25,12 @@ _START = (
     "import json, sys; sys.path[:] = json.loads(sys.argv[1]); "
     "from pushplan.mcp.worker import main; main(int(sys.argv[2]), int(sys.argv[3]))"
 )
+
+#: Errors of the pipes after the end of the worker.
+_BROKEN = (
+    anyio.BrokenResourceError, anyio.ClosedResourceError, anyio.DelimiterNotFound,
+    anyio.EndOfStream, anyio.IncompleteRead,
+)  # fmt: skip
 
 Report = Callable[[float, str], Awaitable[None]]
 
@@ -49,7 +56,7 @@ class Supervisor:
                 await self.close()
                 text = f"the call took longer than {time_limit:g} s; use a smaller task or effort"
                 return stopped("time_limit", text)
-            except (anyio.EndOfStream, anyio.BrokenResourceError, anyio.DelimiterNotFound):
+            except _BROKEN:
                 return await self._ended()
             except anyio.get_cancelled_exc_class():
                 await self.close()
@@ -83,7 +90,9 @@ class Supervisor:
     async def _start(self) -> None:
         path = json.dumps([one for one in sys.path if one])
         words = [sys.executable, "-c", _START, path, str(self.memory), str(self.threads)]
-        self.process = await anyio.open_process(words, stderr=None, cwd="/")
+        # Each arena reserves address space, which counts against the limit on memory.
+        environment = {**os.environ, "MALLOC_ARENA_MAX": "4"}
+        self.process = await anyio.open_process(words, stderr=None, cwd="/", env=environment)
         assert self.process.stdout is not None
         self.lines = BufferedByteReceiveStream(self.process.stdout)
 

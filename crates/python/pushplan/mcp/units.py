@@ -68,7 +68,7 @@ def scalings(
     Candidates convert all lengths, the large or faulty lengths with their neighbours in a list or
     map, and these lengths alone.
     """
-    lengths = {
+    lengths: dict[str, float] = {
         joined(steps): value
         for steps, value in leaves(mapping)
         if isinstance(value, (int, float)) and not isinstance(value, bool)
