@@ -6,6 +6,7 @@ import base64
 import copy
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -295,7 +296,7 @@ def test_without_a_folder_no_file_is_read_or_written(tmp_path: Path) -> None:
 
 
 def test_fuzzed_calls_neither_crash_nor_claim_a_plan_nor_leave_the_folder() -> None:
-    counts = anyio.run(mcp_fuzz.fuzz, 50, 7)
+    counts = anyio.run(mcp_fuzz.fuzz, 50, 7, 0.4)
     assert counts.calls == 50 and counts.verified > 0
     assert not counts.crashes and not counts.false_solved and not counts.outside
 
@@ -309,6 +310,20 @@ def test_malformed_messages_do_not_end_the_server() -> None:
     )  # fmt: skip
     assert ran.returncode == 0, ran.stderr
     assert any(json.loads(line).get("id") == 7 for line in ran.stdout.splitlines()), ran.stdout
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_signals_end_the_server(number: int) -> None:
+    words = [sys.executable, "-m", "pushplan", "mcp"]
+    pipes: Any = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with subprocess.Popen(words, text=True, **pipes) as server:
+        assert server.stdin and server.stdout
+        server.stdin.write('{"jsonrpc": "2.0", "id": 1, "method": "ping"}\n')
+        server.stdin.flush()
+        assert server.stdout.readline()
+        server.send_signal(number)
+        assert server.wait(timeout=10.0) == 0
 
 
 def test_a_missing_extra_is_an_error_with_the_remedy() -> None:

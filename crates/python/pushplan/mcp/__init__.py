@@ -37,7 +37,9 @@ def main(arguments: Sequence[str]) -> int:
     try:
         folder = None if options.folder is None else Folder(options.folder, limits.size)
     except (OSError, InputError) as error:
-        print(f"error: {error}\n  help: name an existing folder", file=sys.stderr)
+        reason = getattr(error, "strerror", None) or str(error)
+        text = f"error: --folder {options.folder}: {reason}\n  help: name an existing folder"
+        print(text, file=sys.stderr)
         return 1
     serve(limits, folder)
     return 0
@@ -74,14 +76,16 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _positive(text: str) -> float:
-    value = float(text)
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
     if not 0.1 <= value <= 86400:
-        raise ValueError
+        raise argparse.ArgumentTypeError(f"expected 0.1 to 86400 seconds, found {text!r}")
     return value
 
 
 def _count(text: str) -> int:
-    value = int(text)
-    if not 0 <= value <= 1 << 20:
-        raise ValueError
-    return value
+    if not text.isdecimal() or not 0 <= int(text) <= 1 << 20:
+        raise argparse.ArgumentTypeError(f"expected 0 to {1 << 20}, found {text!r}")
+    return int(text)

@@ -29,7 +29,7 @@ class Folder:
         #: Maximum size of a file, bytes.
         self.most = most
         if not self.path.is_dir():
-            raise InputError(f"{path} is not a folder")
+            raise InputError("not a folder")
 
     def read(self, name: object) -> str:
         """Returns the text of a file."""

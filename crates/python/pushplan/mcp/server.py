@@ -17,6 +17,7 @@ from mcp.shared.exceptions import MCPError
 
 from pushplan import __version__
 
+from .._ending import until_signal
 from . import resources
 from .declared import DESCRIPTIONS, FILES, OUTPUT, PROPERTIES, SAVED, schema
 from .folder import Folder
@@ -51,12 +52,13 @@ class Limits:
 
 
 def serve(limits: Limits, folder: Optional[Folder]) -> None:
-    """Serves until stdin ends."""
-    anyio.run(_serve, limits, folder)
-
-
-async def _serve(limits: Limits, folder: Optional[Folder]) -> None:
+    """Serves until stdin ends, or until a signal ends the process."""
     supervisor = Supervisor(limits.memory, limits.threads)
+    # A thread that waits for stdin cannot be interrupted.
+    until_signal(lambda: anyio.run(_serve, limits, folder, supervisor), supervisor.kill)
+
+
+async def _serve(limits: Limits, folder: Optional[Folder], supervisor: Supervisor) -> None:
     handlers = _Handlers(limits, folder, supervisor)
     server: Server[Any] = Server(
         "pushplan",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import sys
 from collections.abc import Awaitable, Callable
 from typing import Any, Optional
@@ -61,6 +62,11 @@ class Supervisor:
             except anyio.get_cancelled_exc_class():
                 await self.close()
                 raise
+
+    def kill(self) -> None:
+        """Ends the worker at once, from any thread."""
+        if self.process is not None and self.process.returncode is None:
+            os.kill(self.process.pid, signal.SIGTERM)
 
     async def close(self) -> None:
         """Ends the worker."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import sys
 import time
 from typing import Any, Optional, TextIO
@@ -22,6 +23,8 @@ INTERVAL = 0.2
 
 def main(memory: int, threads: int) -> None:
     """Answers calls until stdin ends; `memory` is the limit in MiB, 0 for none."""
+    # The server ends the worker, also after Ctrl-C in their terminal.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     wire = os.fdopen(os.dup(1), "w", encoding="utf-8")
     # Stray output of libraries must not mix with answers.
     os.dup2(2, 1)
