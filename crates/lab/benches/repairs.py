@@ -270,7 +270,9 @@ def main():
                 "repaired": last,
             }
         )  # fmt: skip
-        print(len(rows), kind.__name__, name, result, calls, found["cause"] or "", flush=True)
+        seconds = rows[-1]["seconds"]
+        cause = found["cause"] or ""
+        print(len(rows), kind.__name__, name, result, calls, f"{seconds} s", cause, flush=True)
     print(f"\n{'kind':16} broken solved restored cannot wrong calls seconds")
     for kind in [*kinds, None]:
         mine = [row for row in rows if kind is None or row["kind"] == kind.__name__]

@@ -301,23 +301,31 @@ def test_fuzzed_calls_neither_crash_nor_claim_a_plan_nor_leave_the_folder() -> N
     assert not counts.crashes and not counts.false_solved and not counts.outside
 
 
+def started() -> subprocess.Popen[str]:
+    """Starts a server whose pipes the test reads and writes itself."""
+    words = [sys.executable, "-m", "pushplan", "mcp"]
+    return subprocess.Popen(words, text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+
+
 def test_malformed_messages_do_not_end_the_server() -> None:
     ping = '{"jsonrpc": "2.0", "id": 7, "method": "ping"}'
-    lines = ["{", "[]", "\x00", '"' + "x" * 9_000_000 + '"', '{"id": 1}', ping]
-    ran = subprocess.run(
-        [sys.executable, "-m", "pushplan", "mcp"], input="\n".join(lines) + "\n", text=True,
-        capture_output=True, check=False, timeout=60,
-    )  # fmt: skip
-    assert ran.returncode == 0, ran.stderr
-    assert any(json.loads(line).get("id") == 7 for line in ran.stdout.splitlines()), ran.stdout
+    long = '{"jsonrpc": "2.0", "id": 6, "method": "' + "x" * 9_000_000 + '"}'
+    with started() as server:
+        assert server.stdin and server.stdout
+        server.stdin.write("\n".join(["{", "[]", "\x00", '{"id": 1}', long, ping]) + "\n")
+        server.stdin.flush()
+        answers: list[Any] = []
+        while not answers or answers[-1].get("id") != 7:
+            answers.append(json.loads(server.stdout.readline()))
+        assert any(one.get("id") == 6 and "error" in one for one in answers)
+        server.stdin.close()
+        assert server.wait(timeout=10.0) == 0
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_signals_end_the_server(number: int) -> None:
-    words = [sys.executable, "-m", "pushplan", "mcp"]
-    pipes: Any = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
-    with subprocess.Popen(words, text=True, **pipes) as server:
+    with started() as server:
         assert server.stdin and server.stdout
         server.stdin.write('{"jsonrpc": "2.0", "id": 1, "method": "ping"}\n')
         server.stdin.flush()

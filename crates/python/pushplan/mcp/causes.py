@@ -6,6 +6,7 @@ not yet a repair: the server applies it and solves the task again.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -21,6 +22,8 @@ Changes = Literal["text", "plan", "robot", "scene"]
 
 #: Factors of a force, a reach or a length, because the stated values are rounded.
 _FACTORS = (1.0, 1.5, 2.5)
+#: Reach beyond the farthest goal that usually suffices, metres.
+_BEYOND = 0.5
 #: Factors of the robot's force if the needed force is unknown.
 _STRONGER = (4.0, 16.0)
 #: Number of directions that is usually enough.
@@ -58,6 +61,7 @@ def by_cause(cause: str, mapping: _Mapping) -> list[Proposal]:
 def general(mapping: _Mapping) -> list[Proposal]:
     """Returns proposals that relax the limits of plan and robot, for causes that name none."""
     edits = []
+    found = _farther(mapping)
     if isinstance(mapping.get("tools"), list):
         edits.append(_set(mapping, "tools", "all"))
     count = value_at(mapping, "pushes.max_count")
@@ -66,7 +70,7 @@ def general(mapping: _Mapping) -> list[Proposal]:
     directions = value_at(mapping, "pushes.directions")
     if not isinstance(directions, int) or directions < _DIRECTIONS:
         edits.append(_set(mapping, "pushes.directions", _DIRECTIONS))
-    found = [Proposal([edit], "plan", f"`{edit.path}` is too narrow") for edit in edits]
+    found += [Proposal([edit], "plan", f"`{edit.path}` is too narrow") for edit in edits]
     found.append(Proposal(edits, "plan", "several limits of the plan are too narrow"))
     force = value_at(mapping, "robot.max_force")
     if isinstance(force, (int, float)) and not isinstance(force, bool):
@@ -74,6 +78,24 @@ def general(mapping: _Mapping) -> list[Proposal]:
             edit = _set(mapping, "robot.max_force", _round(force * factor))
             found.append(Proposal([edit], "robot", "the robot may be too weak"))
     return found
+
+
+def _farther(mapping: _Mapping) -> list[Proposal]:
+    """Returns the proposal of a reach, and of pushes, up to the farthest object and goal."""
+    goal = mapping.get("goal")
+    bodies = [*mapping["scene"]["objects"], *(goal if isinstance(goal, list) else [goal])]
+    distances = [math.hypot(*body["position"][:2]) for body in bodies if "position" in body]
+    reach = value_at(mapping, "robot.reach.max")
+    farthest = max(distances, default=0.0)
+    if not isinstance(reach, (int, float)) or farthest <= reach:
+        return []
+    count = value_at(mapping, "pushes.max_count")
+    length = farthest / (count if isinstance(count, int) and count else 3)
+    edits = [
+        _set(mapping, "robot.reach.max", _round(farthest + _BEYOND)),
+        _set(mapping, "pushes.length", _round(length)),
+    ]
+    return [Proposal(edits, "robot", "objects or goals are out of reach")]
 
 
 def _set(mapping: _Mapping, path: str, new: Any) -> Edit:

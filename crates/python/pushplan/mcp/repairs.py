@@ -27,7 +27,7 @@ ORDER = ["no_plan", "failed_verification", "partial", "fragile", "solved"]
 ROUNDS = 6
 
 #: Maximum duration of the trial of a repair, seconds.
-TRIAL = 10.0
+TRIAL = 6.0
 #: Maximum number of alternatives in an answer.
 ALTERNATIVES = 2
 

@@ -26,6 +26,8 @@ TYPICAL = {
     "lift": 0.002,
 }  # fmt: skip
 USUAL = 0.1
+#: Last keys of the paths of places.
+PLACES = ("position", "home", "at", "between")
 
 
 @functools.cache
@@ -74,7 +76,8 @@ def scalings(
         if isinstance(value, (int, float)) and not isinstance(value, bool)
         and math.isfinite(value) and is_length(steps)
     }  # fmt: skip
-    large = {path for path, value in lengths.items() if abs(value) > above or path in faulty}
+    large = {path for path, value in lengths.items() if _in_doubt(path, value, above)} | faulty
+    large &= set(lengths)
     if not large:
         return []
     groups = [large, _beside(large, lengths), set(lengths)]
@@ -94,6 +97,12 @@ def scalings(
             found.append((_strangeness(after) + 0.1 * rank, unit, edits))
     found.sort(key=lambda one: one[0])
     return [(unit, edits) for _, unit, edits in found]
+
+
+def _in_doubt(path: str, value: float, above: float) -> bool:
+    """Returns `True` if a length is too large; a place may be far away on purpose."""
+    names = [step for step in split(path) if isinstance(step, str)]
+    return abs(value) > (HUGE if names[-1] in PLACES else above)
 
 
 def _beside(paths: set[str], lengths: dict[str, float]) -> set[str]:
