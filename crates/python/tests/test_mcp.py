@@ -19,7 +19,7 @@ import pytest
 
 import pushplan
 
-pytest.importorskip("mcp", minversion=None)
+pytest.importorskip("mcp_types")
 pytest.importorskip("yaml")
 
 import anyio  # noqa: E402
@@ -335,7 +335,7 @@ def test_signals_end_the_server(number: int) -> None:
 
 
 def test_a_missing_extra_is_an_error_with_the_remedy() -> None:
-    hide = "import sys; sys.modules['mcp'] = None; "
+    hide = "import sys; sys.modules['mcp_types'] = None; "
     hide += "from pushplan.mcp import main; sys.exit(main([]))"
     ran = subprocess.run(
         [sys.executable, "-c", hide], text=True, capture_output=True, check=False, timeout=60

@@ -14,14 +14,14 @@ from pathlib import Path
 
 __all__ = ["main"]
 
-#: Packages of the extra.
-NEEDED = ("mcp", "yaml")
+#: Modules of the extra, with their packages; older versions of the SDK lack the first module.
+NEEDED = {"mcp_types": "mcp>=2.3", "yaml": "pyyaml"}
 
 
 def main(arguments: Sequence[str]) -> int:
     """Runs the server until stdin ends, and returns the exit code."""
     options = _parser().parse_args(arguments)
-    missing = [name for name in NEEDED if importlib.util.find_spec(name) is None]
+    missing = [NEEDED[name] for name in NEEDED if importlib.util.find_spec(name) is None]
     if missing:
         print(
             f"error: the package `{missing[0]}` is missing\n"
