@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ._native import Task, Tool
 
-__all__ = ["Picture"]
+__all__ = ["Picture", "about_centre", "placed"]
 
 _Floats = npt.NDArray[np.float64]
 _Pose = Union[Sequence[float], _Floats]
@@ -70,12 +70,12 @@ class Picture:
         for k, pose in enumerate(poses):
             thing = self.scene["objects"][k]
             for part in (thing, *thing.get("parts", [])):
-                at = pose if part is thing else _placed(pose, part)
+                at = pose if part is thing else placed(pose, part)
                 self._fill(pixels, at, part["shape"], _WANTED if k == self.wanted else _OTHER)
             # Mark of the heading.
             self._fill(
                 pixels,
-                _placed(pose, {"position": [0.012, 0.0]}),
+                placed(pose, {"position": [0.012, 0.0]}),
                 {"cuboid": {"size": [0.024, 0.005]}},
                 _PAPER,
             )
@@ -83,7 +83,7 @@ class Picture:
             parts: Any = tool[0].to_dict()["parts"]
             for part in parts:
                 shape = part.get("shape") or {"cuboid": part}
-                self._fill(pixels, _placed(tool[1], part), shape, _TOOL)
+                self._fill(pixels, placed(tool[1], part), shape, _TOOL)
         fine = pixels.reshape(self.size, _FINER, self.size, _FINER, 3)
         return np.asarray(fine.mean(axis=(1, 3)).round(), np.uint8)
 
@@ -99,14 +99,14 @@ class Picture:
             size = shape["cuboid"]["size"]
             inside = (np.abs(x) <= size[0] / 2) & (np.abs(y) <= size[1] / 2)
         else:
-            corners = _about_centre(shape["prism"])
+            corners = about_centre(shape["prism"])
             ahead = np.roll(corners, -1, axis=0) - corners
             turns = [e[0] * (y - p[1]) - e[1] * (x - p[0]) for p, e in zip(corners, ahead)]
             inside = np.all(np.array(turns) >= 0, axis=0) | np.all(np.array(turns) <= 0, axis=0)
         pixels[inside] = colour
 
 
-def _placed(pose: _Pose, part: Any) -> tuple[float, float, float]:
+def placed(pose: _Pose, part: Any) -> tuple[float, float, float]:
     """Returns the pose of a part of a body with this pose."""
     x, y = part["position"][:2]
     c, s = math.cos(pose[2]), math.sin(pose[2])
@@ -117,7 +117,7 @@ def _placed(pose: _Pose, part: Any) -> tuple[float, float, float]:
     )
 
 
-def _about_centre(prism: Any) -> _Floats:
+def about_centre(prism: Any) -> _Floats:
     """Returns the corners of a prism relative to its centre of mass, which is its position."""
     corners = np.array(prism["corners"], float)
     if "centre_of_mass" in prism:
