@@ -239,7 +239,7 @@ def agent_of(text: str, name: str) -> pushplan.Tool:
     table = Table(rows, columns)
     found = [table.place(one) for one in solids(cells["A"])]
     home = found[0][0]
-    parts = [
+    parts: list[Any] = [
         {
             "name": f"part-{k + 1}",
             "size": [round(extent - 2 * PLAY, 4) for extent in extents] + [HEIGHT],
@@ -247,8 +247,14 @@ def agent_of(text: str, name: str) -> pushplan.Tool:
         }
         for k, (middle, extents) in enumerate(found)
     ]
-    described = {"name": f"agent-of-{name}", "friction": 0.3, "parts": parts}
-    return pushplan.Tool.from_dict({**described, "description": "The agent of a puzzle."})
+    return pushplan.Tool.from_dict(
+        {
+            "name": f"agent-of-{name}",
+            "description": "The agent of a puzzle.",
+            "friction": 0.3,
+            "parts": parts,
+        }
+    )
 
 
 def main() -> None:

@@ -10,15 +10,16 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from .edits import MISSING, Edit, value_at
 
-__all__ = ["Changes", "Proposal", "by_cause", "general"]
+__all__ = ["Proposal", "by_cause", "general"]
 
-#: Subject of a change. `text`: the task was written wrongly; `plan`: limits of the plan; `robot`:
-#: abilities of the robot; `scene`: bodies on the table.
-Changes = Literal["text", "plan", "robot", "scene"]
+if TYPE_CHECKING:
+    #: Subject of a change. `text`: the task was written wrongly; `plan`: limits of the plan;
+    #: `robot`: abilities of the robot; `scene`: bodies on the table.
+    _Changes = Literal["text", "plan", "robot", "scene"]
 
 #: Factors of a force, a reach or a length, because the stated values are rounded.
 _FACTORS = (1.0, 1.5, 2.5)
@@ -37,7 +38,7 @@ class Proposal:
     """Edits that may repair a task."""
 
     edits: list[Edit]
-    changes: Changes
+    changes: _Changes
     #: Reason for the edits, one sentence.
     reason: str
 
@@ -133,7 +134,7 @@ def _force(match: _Found, mapping: _Mapping) -> list[Proposal]:
         if owner not in names:
             return []
         path = f"scene.objects[{names.index(owner)}].max_force"
-    changes: Changes = "scene" if owner else "robot"
+    changes: _Changes = "scene" if owner else "robot"
     reason = "pushing takes more force than is allowed"
     edits = [_set(mapping, path, _round(needed * factor)) for factor in _FACTORS]
     return [Proposal([edit], changes, reason) for edit in edits]
@@ -144,7 +145,7 @@ def _count(match: _Found, mapping: _Mapping) -> list[Proposal]:
     return [Proposal([edit], "plan", "the task needs more pushes") for edit in edits]
 
 
-def _value(path: str, changes: Changes, reason: str) -> Callable[..., list[Proposal]]:
+def _value(path: str, changes: _Changes, reason: str) -> Callable[..., list[Proposal]]:
     """Returns the proposal to set a number, and larger ones if the first does not suffice."""
 
     def proposals(match: _Found, mapping: _Mapping) -> list[Proposal]:

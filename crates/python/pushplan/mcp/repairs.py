@@ -10,14 +10,17 @@ import re
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import TYPE_CHECKING, Any, Optional
 
 from pushplan import PushplanError, Solution, Task, ToolLibrary
 
-from .causes import Changes, Proposal, by_cause, general
+from .causes import Proposal, by_cause, general
 from .edits import MISSING, Edit, applied, split, value_at
 from .inputs import InputError, task_of
 from .units import HUGE, LARGE, scalings
+
+if TYPE_CHECKING:
+    from .causes import _Changes
 
 __all__ = ["Repair", "Trial", "of_faults", "of_solution"]
 
@@ -69,7 +72,7 @@ class Repair:
     """Repair that was verified."""
 
     edits: list[Edit]
-    changes: Changes
+    changes: _Changes
     reason: str
     #: Number of faults before and after.
     faults: tuple[int, int]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import math
 from collections.abc import Iterator
 from typing import Any
@@ -30,9 +29,13 @@ USUAL = 0.1
 PLACES = ("position", "home", "at", "between")
 
 
-@functools.cache
+_schemas: list[dict[str, Any]] = []
+
+
 def _schema() -> dict[str, Any]:
-    return task_schema()
+    if not _schemas:
+        _schemas.append(task_schema())
+    return _schemas[0]
 
 
 def _inside(schemas: list[dict[str, Any]], step: Step) -> Iterator[dict[str, Any]]:
