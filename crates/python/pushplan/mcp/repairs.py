@@ -127,7 +127,9 @@ def of_solution(
 ) -> list[Repair]:
     """Returns repairs of a valid task without a plan; each has a better status than `before`."""
     certain, likely = [_in_units(mapping, above) for above in (HUGE, LARGE)]
-    options = certain + by_cause(solution.cause or "", mapping)
+    verdict = solution.best.verdict if solution.best is not None else None
+    cause = solution.cause or (verdict.reason if verdict is not None else "")
+    options = certain + by_cause(cause, mapping)
     options += [option for option in likely if option not in certain] + general(mapping)
     found: list[Repair] = []
     for option in options:
