@@ -11,7 +11,7 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal, Optional, cast
+from typing import TYPE_CHECKING, Any, Literal, Optional, cast
 
 import pushplan
 from pushplan import Plan, Progress, Solution, Task
@@ -26,7 +26,8 @@ from .steps import next_push
 __all__ = ["Answer", "Context", "answer"]
 
 Answer = dict[str, Any]
-_Effort = Literal["draft", "standard", "thorough"]
+if TYPE_CHECKING:
+    _Effort = Literal["draft", "standard", "thorough"]
 
 #: Share of the time limit for the first search; the rest is for verified repairs.
 FIRST = 0.6
@@ -101,7 +102,7 @@ class _Arguments:
 
     @property
     def effort(self) -> _Effort:
-        return cast(_Effort, self.choice("effort", "standard", "draft", "standard", "thorough"))
+        return cast("_Effort", self.choice("effort", "standard", "draft", "standard", "thorough"))
 
     @property
     def seed(self) -> int:

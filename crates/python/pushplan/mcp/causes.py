@@ -10,7 +10,7 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 from .edits import MISSING, Edit, value_at
 
@@ -18,7 +18,7 @@ __all__ = ["Changes", "Proposal", "by_cause", "general"]
 
 #: Subject of a change. `text`: the task was written wrongly; `plan`: limits of the plan; `robot`:
 #: abilities of the robot; `scene`: bodies on the table.
-Changes = Literal["text", "plan", "robot", "scene"]
+Changes = str
 
 #: Factors of a force, a reach or a length, because the stated values are rounded.
 _FACTORS = (1.0, 1.5, 2.5)
