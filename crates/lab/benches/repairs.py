@@ -106,7 +106,8 @@ def misspelt_name(rng, mapping):
 
 
 def misspelt_twice(rng, mapping):
-    return misspelt_key(rng, mapping) and misspelt_name(rng, mapping)
+    # A misspelt key hides the names below it.
+    return misspelt_name(rng, mapping) and misspelt_key(rng, mapping)
 
 
 def lengths(mapping):

@@ -280,7 +280,7 @@ async def _call(client: Client, tool: str, arguments: dict[str, Any], counts: Co
         counts.crashes.append(f"{shown}: {answer['cause']}")
     if SECRET in json.dumps(answer):
         counts.outside.append(f"{shown}: read")
-    if answer["status"] == "solved" and tool == "solve":
+    if answer["status"] == "solved" and tool in ("solve", "design"):
         await _verify(client, arguments, answer, shown, counts)
     for repair in answer["repairs"]:
         if repair["verified"]["status"] == "solved":
@@ -299,7 +299,7 @@ async def _verify(
     if verdict["status"] != "passed":
         counts.false_solved.append(f"{shown}: {verdict['cause']}")
     task = arguments.get("task")
-    if isinstance(task, dict):
+    if isinstance(task, dict) and "known_tools" not in answer:
         planned = pushplan.Plan.parse(json.dumps(answer["plan"])).task
         if planned != pushplan.Task.from_dict(task):  # type: ignore[arg-type]
             counts.false_solved.append(f"{shown}: the plan is for another task")

@@ -255,6 +255,23 @@ def test_limits_hold() -> None:
         served(small, "--memory", "64")
 
 
+def test_a_verification_that_the_time_limit_ends_is_not_solved() -> None:
+    from pushplan.mcp import calls
+
+    task = pushplan.Task.example("unknown-slide")
+    context = calls.Context(60.0, 1, lambda now: None)
+    statuses = set()
+    for limit in (0.3, 0.6, 0.9, 1.2):
+        given = {"task": task.to_dict(), "effort": "draft", "repair": False, "time_limit": limit}
+        answer = calls.answer("solve", given, context)
+        statuses.add(answer["status"])
+        if answer["status"] == "solved":
+            assert calls.answer("verify", {"plan": answer["plan"]}, context)["status"] == "passed"
+        else:
+            assert answer["cause"]
+    assert statuses <= {"solved", "fragile", "failed_verification", "no_plan"}
+
+
 def test_files_are_read_and_written_in_the_folder_only(tmp_path: Path) -> None:
     folder = mcp_fuzz.prepared(tmp_path)
     before = mcp_fuzz.state(tmp_path)

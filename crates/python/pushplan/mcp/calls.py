@@ -19,6 +19,7 @@ from pushplan import Plan, Progress, Solution, Task
 from . import repairs
 from .declared import PROPERTIES
 from .drawing import png, svg
+from .edits import Edit
 from .inputs import Given, InputError, library_of, plan_of, task_of, tool_of
 from .steps import next_push
 
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
 
 #: Share of the time limit for the first search; the rest is for verified repairs.
 FIRST = 0.6
+#: Share of the time limit for the search without repairs; the rest is for its verification.
+ALONE = 0.8
 #: Maximum size of pictures, pixels.
 PIXELS = 1024
 
@@ -116,9 +119,30 @@ class _Arguments:
         until = self.begin + self.limit
         if effort is None:
             return repairs.Trial(self.library, None, until)
-        return repairs.Trial(
-            self.library, lambda task, seconds: self.solve(task, effort, seconds), until
+
+        def solve(task: Task, seconds: float) -> str:
+            return self.settled(self.solve(task, effort, FIRST * seconds))[0]
+
+        return repairs.Trial(self.library, solve, until)
+
+    def settled(self, solution: Solution) -> tuple[str, Optional[pushplan.Verdict]]:
+        """Returns the status, and the verdict of a second verification if one was needed.
+
+        A time limit may end the first verification before its verdict is clear. In the second one,
+        replays that are unfinished do not pass.
+        """
+        best = solution.best
+        if solution.status != "solved" or not solution.timed_out or best is None:
+            return solution.status, None
+        verdict = pushplan.verify(
+            best,
+            seed=self.seed,
+            time_limit=max(self.left(), 0.05),
+            threads=self.context.threads,
         )
+        if verdict.passed:
+            return "solved", verdict
+        return "fragile" if verdict.nominal_ok else "failed_verification", verdict
 
     def solve(self, task: Task, effort: _Effort, seconds: float) -> Solution:
         return pushplan.solve(
@@ -171,16 +195,18 @@ def _solved(arguments: _Arguments, effort: _Effort, with_plan: bool) -> Answer:
         if repair and given.mapping is not None:
             found = repairs.of_faults(given.mapping, arguments.trial(effort))
         return _invalid(given, found)
-    first = FIRST if repair else 1.0
+    first = FIRST if repair else ALONE
     solution = arguments.solve(given.value, effort, first * arguments.limit)
+    status, verdict = arguments.settled(solution)
     found = None
-    if repair and solution.status != "solved" and given.mapping is not None:
-        found = repairs.of_solution(given.mapping, solution, arguments.trial(effort))
+    if repair and status != "solved" and given.mapping is not None:
+        found = repairs.of_solution(given.mapping, status, solution, arguments.trial(effort))
     more: dict[str, Any] = {}
     best = solution.best
     if with_plan and best is not None:
         more["plan"] = compact(best)
-    return _answer(solution.status, _evidence(solution), _cause(solution), found, **more)
+    evidence, cause = _evidence(solution, verdict), _cause(solution, status)
+    return _answer(status, evidence, cause, found, **more)
 
 
 def _solve(arguments: _Arguments) -> Answer:
@@ -191,9 +217,11 @@ def _why(arguments: _Arguments) -> Answer:
     return _solved(arguments, "draft", with_plan=False)
 
 
-def _cause(solution: Solution) -> Optional[str]:
-    if solution.status == "solved":
+def _cause(solution: Solution, status: str) -> Optional[str]:
+    if status == "solved":
         return None
+    if solution.status == "solved":
+        return "the time limit ended the verification; raise `time_limit`"
     if solution.cause:
         return solution.cause
     if solution.timed_out:
@@ -204,14 +232,17 @@ def _cause(solution: Solution) -> Optional[str]:
     return "no feasible push was found"
 
 
-def _evidence(solution: Solution) -> dict[str, Any]:
+def _evidence(
+    solution: Solution, verdict: Optional[pushplan.Verdict] = None
+) -> dict[str, Any]:
     found: dict[str, Any] = {"timed_out": solution.timed_out, "warnings": solution.warnings}
     best = solution.best
     if best is not None:
         found["tools"] = [tool.name for tool in best.tools]
         found["predicted_error"] = best.error
-        if best.verdict is not None:
-            found |= _of_verdict(best.verdict)
+        verdict = verdict or best.verdict
+        if verdict is not None:
+            found |= _of_verdict(verdict)
     return found
 
 
@@ -264,18 +295,35 @@ def _design(arguments: _Arguments) -> Answer:
         candidates=arguments.whole("candidates", 200, 1, 10000),
         effort=arguments.effort,
         seed=arguments.seed,
-        time_limit=arguments.limit,
+        time_limit=ALONE * arguments.limit,
         threads=arguments.context.threads,
         progress=arguments.context.progress,
     )
     more: dict[str, Any] = {"known_tools": found.known.status}
     solution = found.solution or found.known
+    status, verdict = arguments.settled(solution)
     if found.tool is not None:
         more["tool"] = found.tool.to_dict()
+    repaired = None
     if solution.best is not None:
-        more["plan"] = compact(solution.best)
-    cause = None if found.status == "solved" else _cause(solution)
-    return _answer(found.status, _evidence(solution), cause, **more)
+        plan = more["plan"] = compact(solution.best)
+        repaired = _with_tools(given.value, plan, status)
+    evidence, cause = _evidence(solution, verdict), _cause(solution, status)
+    return _answer(status, evidence, cause, repaired, **more)
+
+
+def _with_tools(task: Task, plan: dict[str, Any], status: str) -> Optional[list[repairs.Repair]]:
+    """Adds the tools of a plan to its task, and returns this change, if the task lacks them."""
+    used = [tool["name"] for tool in plan["tools"]]
+    more = [name for name in used if name not in (task.tools or used)]
+    if not more:
+        return None
+    mapping: dict[str, Any] = dict(task.to_dict())
+    edit = Edit("set", "tools", mapping["tools"], [*mapping["tools"], *more])
+    mapping["tools"] = edit.new
+    plan["task"] = {**plan["task"], "tools": edit.new}
+    reason = "`tools` does not name the tool of the plan"
+    return [repairs.Repair([edit], "plan", reason, (0, 0), status, mapping)]
 
 
 def _draw(arguments: _Arguments) -> Answer:

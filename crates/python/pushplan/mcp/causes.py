@@ -140,6 +140,15 @@ def _force(match: _Found, mapping: _Mapping) -> list[Proposal]:
     return [Proposal([edit], changes, reason) for edit in edits]
 
 
+def _force_of_replay(match: _Found, mapping: _Mapping) -> list[Proposal]:
+    edits = [
+        _set(mapping, "robot.max_force", math.ceil(float(match[1]) * factor))
+        for factor in _FACTORS[1:]
+    ]
+    reason = "pushing takes more force than is allowed"
+    return [Proposal([edit], "robot", reason) for edit in edits]
+
+
 def _count(match: _Found, mapping: _Mapping) -> list[Proposal]:
     edits = [_set(mapping, "pushes.max_count", int(match[1]) + k) for k in range(3)]
     return [Proposal([edit], "plan", "the task needs more pushes") for edit in edits]
@@ -231,6 +240,7 @@ _CAUSES: list[tuple[str, Callable[[_Found, _Mapping], list[Proposal]]]] = [
     (rf"raise `robot\.reach\.max` to {_NUMBER} m(?: and `pushes\.length` to {_NUMBER} m)?", _reach),
     (rf"raise `pushes\.length` to {_NUMBER} m or `pushes\.max_count` to (\d+)", _more_or_longer),
     (rf"takes about {_NUMBER} N, but `(?:robot\.)?max_force`(?: of `([^`]+)`)?", _force),
+    (rf"takes about {_NUMBER} N for longer than an impact; `robot\.max_force`", _force_of_replay),
     (r"the task needs (\d+) pushes, but `pushes\.max_count`", _count),
     (
         rf"raise `pushes\.length` from {_NUMBER[1:-1]} m to {_NUMBER} m",

@@ -40,8 +40,8 @@ class Trial:
     """Means to verify repairs."""
 
     library: ToolLibrary
-    #: Solves a task within a number of seconds; `None` if repairs are only checked.
-    solve: Optional[Callable[[Task, float], Solution]]
+    #: Returns the status of solving a task within seconds; `None` if repairs are only checked.
+    solve: Optional[Callable[[Task, float], str]]
     #: End of the time for trials, on the clock `time.monotonic`.
     until: float
 
@@ -62,7 +62,7 @@ class Trial:
         if self.solve is None or task is None or self.left() <= 0:
             return None
         try:
-            return self.solve(task, min(self.left(), TRIAL)).status
+            return self.solve(task, min(self.left(), TRIAL))
         except (PushplanError, ValueError):
             return None
 
@@ -125,10 +125,14 @@ def of_faults(mapping: dict[str, Any], trial: Trial) -> list[Repair]:
     return _best(found)
 
 
-def of_solution(mapping: dict[str, Any], solution: Solution, trial: Trial) -> list[Repair]:
-    """Returns repairs of a valid task without a plan; each has a better status than before."""
+def of_solution(
+    mapping: dict[str, Any], before: str, solution: Solution, trial: Trial
+) -> list[Repair]:
+    """Returns repairs of a valid task without a plan; each has a better status than `before`."""
     certain, likely = [_in_units(mapping, above) for above in (HUGE, LARGE)]
-    options = certain + by_cause(solution.cause or "", mapping)
+    verdict = solution.best.verdict if solution.best is not None else None
+    cause = solution.cause or (verdict.reason if verdict is not None else "")
+    options = certain + by_cause(cause, mapping)
     options += [option for option in likely if option not in certain] + general(mapping)
     found: list[Repair] = []
     for option in options:
@@ -138,7 +142,7 @@ def of_solution(mapping: dict[str, Any], solution: Solution, trial: Trial) -> li
         if trial.faults(changed):
             continue
         status = trial.status(changed)
-        if status and ORDER.index(status) > ORDER.index(solution.status):
+        if status and ORDER.index(status) > ORDER.index(before):
             counts = (0, 0)
             repair = Repair(option.edits, option.changes, option.reason, counts, status, changed)
             found.append(repair)

@@ -12,6 +12,8 @@ from .edits import Edit, Step, joined, leaves, split
 
 __all__ = ["HUGE", "LARGE", "SCALES", "is_length", "scalings"]
 
+_SCHEMA: dict[str, Any] = task_schema()
+
 #: Units in metres that people write instead of metres.
 SCALES = {"millimetres": 0.001, "centimetres": 0.01}
 #: Length on a table above which a unit is in doubt, metres.
@@ -29,15 +31,6 @@ USUAL = 0.1
 PLACES = ("position", "home", "at", "between")
 
 
-_schemas: list[dict[str, Any]] = []
-
-
-def _schema() -> dict[str, Any]:
-    if not _schemas:
-        _schemas.append(task_schema())
-    return _schemas[0]
-
-
 def _inside(schemas: list[dict[str, Any]], step: Step) -> Iterator[dict[str, Any]]:
     for schema in schemas:
         yield from _inside(schema.get("anyOf", []) + schema.get("oneOf", []), step)
@@ -51,7 +44,7 @@ def _inside(schemas: list[dict[str, Any]], step: Step) -> Iterator[dict[str, Any
 
 def is_length(steps: list[Step]) -> bool:
     """Returns `True` if the value at a path of a task is a length or a speed."""
-    schemas = [_schema()]
+    schemas = [_SCHEMA]
     texts: list[str] = []
     for step in steps:
         schemas = list(_inside(schemas, step))
