@@ -22,7 +22,8 @@ const MOST_ROOM_FOR_MODEL: f64 = 0.02;
 const REFINE_WORK: usize = 20_000;
 
 /// Number of pushes above which a plan is not refined as a whole. Such plans follow legs, so that
-/// their pushes have been refined one by one, and a round would cost hundreds of long rollouts.
+/// their pushes have been refined or corrected one by one. A round would cost hundreds of long
+/// rollouts.
 const LONG: usize = 10;
 
 /// Task in a situation, with its planner and progress observer.

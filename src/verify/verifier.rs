@@ -224,10 +224,10 @@ impl<'a> Verifier<'a> {
                 let failed = self.giving_up && never(own, asked.0);
                 failed || sequential_test::answer(own, asked.0.robustness).is_some()
             };
-            let goes_on = self.until_clear && least > 0 && !self.progress.cancelled();
+            // Replays that were stopped fail, so that no unclear verdict passes.
             let wanted = match done < least {
                 true => least,
-                false if goes_on && !is_clear() => {
+                false if self.until_clear && least > 0 && !is_clear() => {
                     (done + sequential_test::LOOK).min(sequential_test::MOST)
                 }
                 false => done,

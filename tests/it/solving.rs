@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::effect::{EffectModel, Job, Quantiles, Simulated, Trust};
@@ -331,4 +332,40 @@ goal: {object: box, heading_deg: 54.8, heading_tolerance_deg: 5, symmetric: fals
     assert_eq!(solution.status, PlanStatus::Solved, "{robustness:?}");
     assert!(robustness >= Some(0.9), "{robustness:?}");
     assert!(best.works_on_all_supports(&task, &Situation::stated(&task.scene)));
+}
+
+/// Observer that cancels after a number of questions.
+struct After {
+    asked: AtomicUsize,
+    most: usize,
+}
+
+impl Progress for After {
+    fn cancelled(&self) -> bool {
+        self.asked.fetch_add(1, Ordering::Relaxed) >= self.most
+    }
+}
+
+#[test]
+fn a_stopped_verification_is_not_called_solved() {
+    // A draft's first replays of a plan for this task succeed, and later ones fail.
+    let (task, library) =
+        (Task::example("unknown-slide").unwrap(), ToolLibrary::embedded().unwrap());
+    let planner = Planner::for_effort(Effort::Draft).unwrap().build();
+    let stopped = |most| {
+        let progress = After { asked: AtomicUsize::new(0), most };
+        let solution = planner.solve_with(&task, &library, &progress).unwrap();
+        (solution, progress.asked.into_inner())
+    };
+    let (whole, asked) = stopped(usize::MAX);
+    assert_eq!(whole.status, PlanStatus::Solved);
+    let mut unclear = 0;
+    for cut in 1..32 {
+        let (solution, _) = stopped(asked * cut / 32);
+        let Some(best) = solution.best() else { continue };
+        let passes = planner.verify(&best.to_file(&task)).unwrap().passed;
+        assert!(passes || solution.status != PlanStatus::Solved, "cut {cut} of 32");
+        unclear += usize::from(solution.status == PlanStatus::Fragile);
+    }
+    assert!(unclear > 0, "no cut fell into a verification");
 }

@@ -48,7 +48,7 @@ pub struct Model {
     pub ours: bool,
     /// Whether the larger of two friction values applies to a pair.
     pub larger_friction: bool,
-    /// Whether nothing may be assumed, so that what the file leaves open is a fault.
+    /// Whether missing data of the file are faults instead of assumptions.
     pub strict: bool,
 }
 

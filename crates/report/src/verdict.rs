@@ -111,6 +111,11 @@ pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
                 engine_name(*engine)
             )
         }
+        Some(Reason::Fragile { .. } | Reason::NeverOn { .. }) if verdict.was_stopped() => {
+            "fragile: works as written, but the perturbed replays were stopped before the verdict \
+             was clear"
+                .to_owned()
+        }
         Some(Reason::NeverOn { engine, support, replays }) => format!(
             "fragile: works as written, but fails in all {replays} perturbed {} replays in which \
              objects rest on {}",

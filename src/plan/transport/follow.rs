@@ -126,11 +126,15 @@ impl Follow<'_> {
                 }
             }
             // Other legs from here, or from the station before.
-            while open.is_empty() && !self.arrived(&way) && retries < RETRIES && way.len() <= ahead
+            while open.is_empty()
+                && !self.arrived(&way)
+                && retries < RETRIES
+                && way.len() <= ahead
+                && !progress.cancelled()
             {
                 retries += 1;
                 let (station, leg) = way.last().expect("the way begins at the start");
-                if let Some(legs) = self.replanned(station, &failed) {
+                if let Some(legs) = self.replanned(station, &failed, progress) {
                     (open, planned) = (legs.into(), way.len());
                 } else if let Some(leg) = leg {
                     failed.push(Failed::of(leg, true));
@@ -153,13 +157,18 @@ impl Follow<'_> {
     }
 
     /// Returns other legs from a station.
-    fn replanned(&self, station: &Station, failed: &[Failed]) -> Option<Vec<Leg>> {
+    fn replanned(
+        &self,
+        station: &Station,
+        failed: &[Failed],
+        progress: &dyn Progress,
+    ) -> Option<Vec<Leg>> {
         let now = Situation { start: station.state.clone(), ..self.situation.clone() };
         let groups = Groups::of(&self.workspace, &now)?;
         let transport =
             Transport::new(self.workspace, &now, &groups, self.tool, (station.tool, self.longest))?;
         let most = self.most.checked_sub(station.pushes).filter(|most| *most > 0)?;
-        let legs = legs_without(&transport, failed, most, 1).pop()?;
+        let legs = legs_without(&transport, failed, (most, 1), progress).pop()?;
         (!legs.is_empty()).then_some(legs)
     }
 

@@ -2,8 +2,8 @@
 //! skeletons for plans of many pushes.
 //!
 //! Groups of solids translate on a grid of places, each pushed by a tool behind it; a pushed group
-//! may carry others along. [`Transport`] searches sequences of such pushes: what to push next,
-//! where to, and what to clear or park first. This is navigation and rearrangement among movable
+//! may carry others along. [`Transport`] searches sequences of such pushes: their order, their
+//! ends, and the groups to clear or park first. This is navigation and rearrangement among movable
 //! obstacles (Stilman and Kuffner 2005, "Navigation among movable obstacles: real-time reasoning in
 //! complex environments"). No rollouts are needed. [`Follow`] then finds real pushes for the legs,
 //! one after another, and searches again from where they lead elsewhere.

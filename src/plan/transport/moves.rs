@@ -208,6 +208,7 @@ fn openness(transport: &Transport, train: &Train) -> u64 {
         all.wrapping_mul(1_000_003).wrapping_add(u64::from(own))
     })
 }
+
 /// Returns `true` if a group pushes another one within the width of their contact, so that neither
 /// rotates.
 fn is_behind_centre(

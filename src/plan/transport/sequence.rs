@@ -1,5 +1,5 @@
-//! Search for sequences of pushes among many groups: what to push next, where to, and what is
-//! carried along.
+//! Search for sequences of pushes among many groups: their order, their ends, and the groups that
+//! are carried along.
 //!
 //! A best-first search with two queues. One prefers states near the goals, estimated by the
 //! distances of all groups among fixed bodies and by the groups in the way. The other prefers
@@ -9,6 +9,8 @@
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap, HashSet};
 use std::rc::Rc;
+
+use crate::progress::Progress;
 
 use super::distance::{METRE, Sample};
 use super::lattice::Shift;
@@ -92,19 +94,25 @@ struct Sequences<'t, 'a> {
 }
 
 /// Returns the legs of up to `count` plans with at most `most` pushes each.
-pub fn find_legs(transport: &Transport, most: usize, count: usize) -> Vec<Vec<Leg>> {
-    legs_without(transport, &[], most, count)
+/// Returns none if `progress` stops the search.
+pub fn find_legs(
+    transport: &Transport,
+    most: usize,
+    count: usize,
+    progress: &dyn Progress,
+) -> Vec<Vec<Leg>> {
+    legs_without(transport, &[], (most, count), progress)
 }
 
 /// Returns the legs of plans that avoid pushes which failed.
 pub(super) fn legs_without(
     transport: &Transport,
     failed: &[Failed],
-    most: usize,
-    count: usize,
+    counts: (usize, usize),
+    progress: &dyn Progress,
 ) -> Vec<Vec<Leg>> {
-    for (budget, movers) in PASSES {
-        let found = sequences(transport, failed, (most, count), (budget, movers));
+    for pass in PASSES {
+        let found = sequences(transport, failed, counts, pass, progress);
         if !found.is_empty() {
             return found;
         }
@@ -118,6 +126,7 @@ fn sequences(
     failed: &[Failed],
     (most, count): (usize, usize),
     (budget, movers): (usize, usize),
+    progress: &dyn Progress,
 ) -> Vec<Vec<Leg>> {
     let mut search = Sequences {
         transport,
@@ -132,16 +141,17 @@ fn sequences(
         old_pairs: HashSet::new(),
         paths: HashMap::new(),
     };
-    search.run(most, count).into_iter().map(|node| search.legs_to(node)).collect()
+    search.run((most, count), progress).into_iter().map(|node| search.legs_to(node)).collect()
 }
+
 impl Sequences<'_, '_> {
     /// Returns the nodes at which all goals are met.
-    fn run(&mut self, most: usize, count: usize) -> Vec<usize> {
+    fn run(&mut self, (most, count): (usize, usize), progress: &dyn Progress) -> Vec<usize> {
         let start = vec![[0, 0]; self.transport.groups.len()];
         self.add(Node { shifts: start, before: None, cost: 0.0, pushes: 0, expanded: false }, most);
         let (mut found, mut budget) = (Vec::new(), self.budget);
         let mut turn = 0;
-        while turn < budget && self.nodes.len() < MOST {
+        while turn < budget && self.nodes.len() < MOST && !progress.cancelled() {
             turn += 1;
             let queue = match turn % (TURNS + 1) {
                 0 => &mut self.novel,
@@ -168,11 +178,8 @@ impl Sequences<'_, '_> {
             let all = shifts.len() <= MANY;
             for k in (0..shifts.len()).filter(|k| all || estimate.relevant[*k]) {
                 for one in moves(self.transport, k, &shifts, self.movers, flood.as_ref()) {
-                    if self
-                        .failed
-                        .iter()
-                        .any(|failed| is_like(self.transport, failed, &one, &shifts))
-                    {
+                    let again = |failed| is_like(self.transport, failed, &one, &shifts);
+                    if self.failed.iter().any(again) {
                         continue;
                     }
                     let length = self.transport.length(one.steps);

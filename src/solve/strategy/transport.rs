@@ -153,15 +153,17 @@ fn legs<'a>(board: &Blackboard<'a>, most: usize, count: usize) -> Vec<Legs<'a>> 
     };
     // A tool that stays down keeps its yaw.
     let yaws = &task.pushes.grip_yaws;
-    let at_once = if workspace.is_placed() { yaws.len() } else { 1 };
+    let at_once = if workspace.is_placed() { yaws.len().max(1) } else { 1 };
     let tools = 0..workspace.tools.len();
     let grips = tools.flat_map(|tool| yaws.chunks(at_once).map(move |yaws| (tool, yaws)));
     let mut all: Vec<_> = grips.filter_map(carrier).collect();
     // The sort is stable, so that ties keep their order.
     all.sort_by(|a, b| a.1.least().total_cmp(&b.1.least()));
     let best = all.iter().take(TOOLS);
-    let ways = best
-        .flat_map(|(tool, one)| find_legs(one, most, count).into_iter().map(|legs| (*tool, legs)));
+    let progress = board.query.progress;
+    let ways = best.flat_map(|(tool, one)| {
+        find_legs(one, most, count, progress).into_iter().map(|legs| (*tool, legs))
+    });
     // If the grid is too coarse to distinguish a goal from the start, no leg is needed.
     ways.filter(|(_, legs)| !legs.is_empty()).collect()
 }
