@@ -62,6 +62,15 @@ class Box(NamedTuple):
     across: float
 
 
+def hook_boxes(hook: dict[str, float]) -> list[Box]:
+    """Returns the boxes of a hook in its own frame."""
+    width, long, short = hook["width"], hook["length_side1"], hook["length_side2"]
+    return [
+        Box("handle", -long / 2, -width / 2, long, width),
+        Box("bar", -width / 2, -(width + short) / 2, width, short - width),
+    ]
+
+
 class Stroke(NamedTuple):
     """Straight motion from a pose of the lattice, with its predicted value."""
 
@@ -160,15 +169,6 @@ class HookGame(Episode):
             Box("right", arm + long / 2, -gap / 2, long, thick),
         ]
 
-    def hook_boxes(self) -> list[Box]:
-        """Returns the boxes of the hook in its own frame."""
-        hook = self.state["hook"]
-        width, long, short = hook["width"], hook["length_side1"], hook["length_side2"]
-        return [
-            Box("handle", -long / 2, -width / 2, long, width),
-            Box("bar", -width / 2, -(width + short) / 2, width, short - width),
-        ]
-
     def tool(self, arm: float) -> list[Box]:
         """Returns the boxes of arm, gripper and held hook with another length of the arm."""
         hook = self.state["hook"]
@@ -176,7 +176,7 @@ class HookGame(Episode):
         place = complex(hook["x"] - x, hook["y"] - y) * np.exp(-1j * turn) + arm - self.arm
         yaw = hook["theta"] - turn
         found = self.robot_boxes(arm, self.state["robot"]["finger_gap"])
-        for box in self.hook_boxes():
+        for box in hook_boxes(self.state["hook"]):
             centre = place + complex(box.x, box.y) * np.exp(1j * yaw)
             # The gripper has aligned the hook with the arm, up to the angle that a grasp allows.
             found.append(Box(box.name, centre.real, centre.imag, box.along, box.across))
@@ -212,7 +212,7 @@ class HookGame(Episode):
             turn, place = hook["theta"], complex(hook["x"], hook["y"])
             along, width = np.exp(1j * turn), hook["width"]
             pose = np.array([[place.real, place.imag, turn]])
-            outline = shapely.union_all(shapely.polygons(corners(self.hook_boxes(), pose)[0]))
+            outline = shapely.union_all(shapely.polygons(corners(hook_boxes(self.state["hook"]), pose)[0]))
             lattice = Lattice(self, [self.robot_boxes(ARMS[0], gap)], outline)
             grasp = place - (hook["length_side1"] + ARMS[0] + IN_HAND + 0.5j * width) * along
             if any(lattice.go(at(grasp - back * along, turn), 0) for back in (0.16, 0.08, 0.0)):

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 import shapely  # type: ignore[import-not-found,import-untyped,unused-ignore]
 from _kinder import Episode
-from _kinder_hook import Box, Floats, at, corners, graph_of
+from _kinder_hook import Box, Floats, at, corners, graph_of, hook_boxes
 from scipy.sparse.csgraph import (  # type: ignore[import-not-found,import-untyped,unused-ignore]
     dijkstra,
 )
@@ -74,15 +74,6 @@ class ButtonGame(Episode):
         long, wide = robot["arm_length"], robot["gripper_height"]
         return [Box("arm", long / 2, 0.0, long, wide)]
 
-    def hook_boxes(self) -> list[Box]:
-        """Returns the boxes of the hook in its own frame."""
-        hook = self.state["hook"]
-        width, long, short = hook["width"], hook["length_side1"], hook["length_side2"]
-        return [
-            Box("handle", -long / 2, -width / 2, long, width),
-            Box("bar", -width / 2, -(width + short) / 2, width, short - width),
-        ]
-
     def outlines(self, poses: Floats, hook: Floats | None) -> Floats:
         """Returns the corners of arm and held hook: ``[poses, boxes, 4, 2]``.
 
@@ -92,7 +83,7 @@ class ButtonGame(Episode):
         if hook is not None:
             there = (poses[:, 0] + 1j * poses[:, 1]) + complex(*hook[:2]) * np.exp(1j * poses[:, 2])
             turned = np.stack([there.real, there.imag, poses[:, 2] + hook[2]], axis=1)
-            found.append(corners(self.hook_boxes(), turned))
+            found.append(corners(hook_boxes(self.state["hook"]), turned))
         return np.concatenate(found, axis=1)
 
     def free(self, poses: Floats, hook: Floats | None, things: shapely.Geometry) -> Mask:
@@ -160,7 +151,7 @@ class ButtonGame(Episode):
             foot = corner - (long - back) * along
             points += [(foot, aside), (foot - width * aside, -aside)]
         pose = np.array([[corner.real, corner.imag, turn]])
-        outline = shapely.union_all(shapely.polygons(corners(self.hook_boxes(), pose)[0]))
+        outline = shapely.union_all(shapely.polygons(corners(hook_boxes(self.state["hook"]), pose)[0]))
         things = shapely.union_all([outline, self.button()])
         waits, able = [], []
         for point, normal in points:

@@ -31,8 +31,6 @@ if TYPE_CHECKING:
 
 #: Share of the time limit for the first search; the rest is for verified repairs.
 FIRST = 0.6
-#: Share of the time limit for the search without repairs; the rest is for its verification.
-ALONE = 0.8
 #: Maximum size of pictures, pixels.
 PIXELS = 1024
 
@@ -121,28 +119,9 @@ class _Arguments:
             return repairs.Trial(self.library, None, until)
 
         def solve(task: Task, seconds: float) -> str:
-            return self.settled(self.solve(task, effort, FIRST * seconds))[0]
+            return self.solve(task, effort, seconds).status
 
         return repairs.Trial(self.library, solve, until)
-
-    def settled(self, solution: Solution) -> tuple[str, Optional[pushplan.Verdict]]:
-        """Returns the status, and the verdict of a second verification if one was needed.
-
-        A time limit may end the first verification before its verdict is clear. In the second one,
-        replays that are unfinished do not pass.
-        """
-        best = solution.best
-        if solution.status != "solved" or not solution.timed_out or best is None:
-            return solution.status, None
-        verdict = pushplan.verify(
-            best,
-            seed=self.seed,
-            time_limit=max(self.left(), 0.05),
-            threads=self.context.threads,
-        )
-        if verdict.passed:
-            return "solved", verdict
-        return "fragile" if verdict.nominal_ok else "failed_verification", verdict
 
     def solve(self, task: Task, effort: _Effort, seconds: float) -> Solution:
         return pushplan.solve(
@@ -195,9 +174,9 @@ def _solved(arguments: _Arguments, effort: _Effort, with_plan: bool) -> Answer:
         if repair and given.mapping is not None:
             found = repairs.of_faults(given.mapping, arguments.trial(effort))
         return _invalid(given, found)
-    first = FIRST if repair else ALONE
+    first = FIRST if repair else 1.0
     solution = arguments.solve(given.value, effort, first * arguments.limit)
-    status, verdict = arguments.settled(solution)
+    status = solution.status
     found = None
     if repair and status != "solved" and given.mapping is not None:
         found = repairs.of_solution(given.mapping, status, solution, arguments.trial(effort))
@@ -205,8 +184,7 @@ def _solved(arguments: _Arguments, effort: _Effort, with_plan: bool) -> Answer:
     best = solution.best
     if with_plan and best is not None:
         more["plan"] = compact(best)
-    evidence, cause = _evidence(solution, verdict), _cause(solution, status)
-    return _answer(status, evidence, cause, found, **more)
+    return _answer(status, _evidence(solution), _cause(solution), found, **more)
 
 
 def _solve(arguments: _Arguments) -> Answer:
@@ -217,11 +195,9 @@ def _why(arguments: _Arguments) -> Answer:
     return _solved(arguments, "draft", with_plan=False)
 
 
-def _cause(solution: Solution, status: str) -> Optional[str]:
-    if status == "solved":
-        return None
+def _cause(solution: Solution) -> Optional[str]:
     if solution.status == "solved":
-        return "the time limit ended the verification; raise `time_limit`"
+        return None
     if solution.cause:
         return solution.cause
     if solution.timed_out:
@@ -232,17 +208,14 @@ def _cause(solution: Solution, status: str) -> Optional[str]:
     return "no feasible push was found"
 
 
-def _evidence(
-    solution: Solution, verdict: Optional[pushplan.Verdict] = None
-) -> dict[str, Any]:
+def _evidence(solution: Solution) -> dict[str, Any]:
     found: dict[str, Any] = {"timed_out": solution.timed_out, "warnings": solution.warnings}
     best = solution.best
     if best is not None:
         found["tools"] = [tool.name for tool in best.tools]
         found["predicted_error"] = best.error
-        verdict = verdict or best.verdict
-        if verdict is not None:
-            found |= _of_verdict(verdict)
+        if best.verdict is not None:
+            found |= _of_verdict(best.verdict)
     return found
 
 
@@ -295,21 +268,20 @@ def _design(arguments: _Arguments) -> Answer:
         candidates=arguments.whole("candidates", 200, 1, 10000),
         effort=arguments.effort,
         seed=arguments.seed,
-        time_limit=ALONE * arguments.limit,
+        time_limit=arguments.limit,
         threads=arguments.context.threads,
         progress=arguments.context.progress,
     )
     more: dict[str, Any] = {"known_tools": found.known.status}
     solution = found.solution or found.known
-    status, verdict = arguments.settled(solution)
+    status = solution.status
     if found.tool is not None:
         more["tool"] = found.tool.to_dict()
     repaired = None
     if solution.best is not None:
         plan = more["plan"] = compact(solution.best)
         repaired = _with_tools(given.value, plan, status)
-    evidence, cause = _evidence(solution, verdict), _cause(solution, status)
-    return _answer(status, evidence, cause, repaired, **more)
+    return _answer(status, _evidence(solution), _cause(solution), repaired, **more)
 
 
 def _with_tools(task: Task, plan: dict[str, Any], status: str) -> Optional[list[repairs.Repair]]:
