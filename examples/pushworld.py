@@ -263,16 +263,19 @@ def main() -> None:
         "puzzles", nargs="*", type=Path, help="puzzle files; by default a built-in puzzle"
     )
     parser.add_argument("--out", type=Path, default=Path("pushworld"), help="folder for the files")
-    parser.add_argument("--pushes", type=int, default=32, help="maximum number of pushes of a plan")
+    parser.add_argument(
+        "--pushes", type=int, help="maximum number of pushes [default: 32, as played 64]"
+    )
     parser.add_argument(
         "--as-played", action="store_true", help="play with the agent, which stays down"
     )
     chosen = parser.parse_args()
+    pushes = chosen.pushes or (64 if chosen.as_played else 32)
     for path in chosen.puzzles:
         name = re.sub(r"[^a-z0-9]+", "-", path.stem.lower())
         text = path.read_text()
         agent = agent_of(text, name) if chosen.as_played else None
-        task = task_of(text, name, chosen.pushes, agent)
+        task = task_of(text, name, pushes, agent)
         file = chosen.out / f"{name}.yaml"
         (chosen.out / "tools").mkdir(parents=True, exist_ok=True)
         tool = agent or PLATE

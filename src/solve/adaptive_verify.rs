@@ -79,8 +79,8 @@ impl<'a> Verification<'a> {
     /// Replays the best plan with further perturbations until its success rate is clear, as
     /// `verify` does. This applies only if its class is at least `least`. If the plan works less
     /// often than estimated, another plan may become the best. While fragile plans are not
-    /// accepted, a plan that fails with one support model is dropped early. After a stop the missing
-    /// replays fail, so that a plan whose rate is still unclear is not called solved.
+    /// accepted, a plan that fails with one support model is dropped early. After a stop the
+    /// missing replays fail, so that a plan whose rate is still unclear is not called solved.
     pub fn settle(&self, attempts: &mut Attempts, least: Class) {
         let wanted = self.query.settings.replays > 0;
         while let Some((grade, k)) = attempts.best

@@ -240,10 +240,11 @@ def main():
     add("--solve", metavar="PROGRAM", help="the command pushplan; without it tasks are written")
     add("--effort", default="draft", help="effort of planning")
     add("--seconds", type=float, default=8, help="limit of time, one thread")
-    add("--pushes", type=int, default=32, help="maximum number of pushes of a plan")
+    add("--pushes", type=int, help="maximum number of pushes of a plan [default: 32, as played 64]")
     add("--mujoco", metavar="PYTHON", help="a Python with MuJoCo, which replays the plans")
     add("--out", type=Path, default=Path("runs/puzzles"), help="folder of tasks and plans")
     options = parser.parse_args()
+    options.pushes = options.pushes or (64 if options.as_played else 32)
     pushworld = converter()
     texts = {}
     for given in options.puzzles:

@@ -103,8 +103,13 @@ impl Distances {
             }
             at = [at[0] + stretch.step[0] * count, at[1] + stretch.step[1] * count];
             let length = f64::from(count) * group.lattice.spacing;
-            pushes += ((length - 1e-9) / longest).floor() as usize + 1;
+            pushes += pushes_for(length, longest);
         }
         (samples, pushes)
     }
+}
+
+/// Returns the number of pushes of at most `longest` metres for a length, metres.
+pub(super) fn pushes_for(length: f64, longest: f64) -> usize {
+    ((length - 1e-9) / longest).floor() as usize + 1
 }

@@ -7,7 +7,7 @@ use crate::plan::Workspace;
 use crate::scene::Situation;
 
 use super::collision::Collisions;
-use super::distance::Distances;
+use super::distance::{Distances, pushes_for};
 use super::group::{Group, Hold, groups, holds, step_of};
 use super::held::Held;
 use super::lattice::Shift;
@@ -189,7 +189,7 @@ impl<'a> Transport<'a> {
 
     /// Returns the number of pushes for a length, metres.
     pub(super) fn pushes(&self, length: f64) -> usize {
-        ((length - 1e-9) / self.longest).floor() as usize + 1
+        pushes_for(length, self.longest)
     }
 
     /// Returns the collisions of the tool behind a group with another group.

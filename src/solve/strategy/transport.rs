@@ -116,6 +116,10 @@ impl<'a> Strategy<'a> for Transport<'a> {
 /// Returns the first pushes of a plan of at least `least` pushes that leads to the goals, even with
 /// more pushes than plans may have. Returns `None` if there is no such plan.
 pub(in crate::solve) fn approach(board: &mut Blackboard, least: usize) -> Option<Approach> {
+    // A tool that stays down would have to begin at home again.
+    if !board.query.workspace().is_placed() {
+        return None;
+    }
     let mut ways = legs(board, FAR, 1);
     ways.sort_by_key(|(_, legs)| legs.len());
     if ways.first().is_none_or(|(_, legs)| legs.len() < least) {
