@@ -2,6 +2,7 @@
 
 mod validator;
 
+use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -164,7 +165,14 @@ fn described(schema: &Json, path: &str, keys: &mut usize) {
 fn an_interrupted_solve_prints_its_document() {
     let folder = TempDir::new().expect("a folder");
     let out = folder.path().display().to_string();
-    let line = ["solve", "--example", "crowd", "--effort", "thorough", "--json", "--out", &out];
+    // Half a minute of search without a plan, so that no machine ends before the signal.
+    let boxed = fs::read_to_string(format!("{ROOT}/tasks/boxed-in.yaml")).expect("a task");
+    let long = boxed.replace("max_count: 2", "max_count: 12");
+    assert_ne!(long, boxed);
+    let file = folder.path().join("long.yaml");
+    fs::write(&file, long).expect("a file");
+    let file = file.display().to_string();
+    let line = ["solve", &file, "--effort", "thorough", "--json", "--out", &out];
     let mut child = Command::new(PROGRAM)
         .args(line)
         .current_dir(ROOT)

@@ -38,7 +38,10 @@ impl PyPlan {
     /// Creates a plan from a file, without a prediction.
     pub fn read(file: PlanFile) -> Self {
         let source = TaskSource::File(format!("{}.yaml", file.task.name));
-        Self { file, source, trajectory: None, violations: Vec::new() }
+        let PlanFile { task, tools, plan, .. } = &file;
+        let rules = rule_violations(task, &task.scene, tools, plan);
+        let violations = rules.iter().map(Warning::to_string).collect();
+        Self { file, source, trajectory: None, violations }
     }
 
     /// Creates a plan of given pushes with one of `yaws`, radians.

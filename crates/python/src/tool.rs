@@ -311,7 +311,7 @@ impl PyToolLibrary {
         self.all().eq(other.all())
     }
 
-    /// Names of all tools, sorted.
+    /// Names of the tools that push, sorted. Tools with a blade are found by their names.
     #[getter]
     fn names(&self) -> Vec<&str> {
         self.0.iter().map(|tool| tool.name.as_str()).collect()

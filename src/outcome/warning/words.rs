@@ -118,8 +118,9 @@ impl fmt::Display for Warning {
             ),
             Warning::TooMuchForce { object: None, needed, limit } => write!(
                 f,
-                "pushing takes about {needed:.0} N for longer than an impact; `robot.max_force` is \
-                 {limit:.0} N"
+                "pushing takes about {} N for longer than an impact; `robot.max_force` is \
+                 {limit} N",
+                above(*needed, *limit)
             ),
             Warning::HardPush { needed } => write!(
                 f,
@@ -221,6 +222,15 @@ pub(super) fn out_of_range<'a>(warnings: impl Iterator<Item = &'a Warning> + Clo
         }
         (first, ..) => first.map(ToString::to_string).unwrap_or_default(),
     }
+}
+
+/// Formats `value` with the fewest decimals that show that it is greater than `limit`.
+fn above(value: f64, limit: f64) -> String {
+    let greater = |text: &String| text.parse().is_ok_and(|shown: f64| shown > limit);
+    (0..6)
+        .map(|digits| format!("{value:.digits$}"))
+        .find(greater)
+        .unwrap_or_else(|| value.to_string())
 }
 
 /// Formats `value` with four decimals, or with as many as distinguish it from these bounds.
