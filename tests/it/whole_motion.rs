@@ -101,7 +101,7 @@ goal: {object: can, position: [0.7, 0], tolerance: 0.02}
     let legs = task.legs(&task.scene, &best.tools, &best.plan, &states).expect("ways");
     let tool = &best.tools[0];
     for leg in legs.iter().filter(|leg| leg.from.is_some()) {
-        let held = pushplan::geometry::Pose { position: leg.path[0], heading: leg.yaw };
+        let held = pushplan::geometry::Pose { position: leg.path[0], heading: leg.yaws[0] };
         let frame = tool.pose(held);
         let ahead = tool.parts().iter().map(|part| {
             let at = frame * part.pose;

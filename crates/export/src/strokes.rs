@@ -63,23 +63,29 @@ pub(super) fn travel(
     let Some(first) = motions.first() else { return };
     xml.comment(
         "Travel height above the strokes, and whether tools rotate. Legs of the travel: step and \
-         tool (from 1), heading, whether it begins and ends at a step, and positions of the tool.",
+         tool (from 1), heading, whether it begins and ends at a step, and positions of the tool. \
+         Poses in which tools are lifted before they rotate.",
     );
     let turned = if turns(motions) { 1.0 } else { 0.0 };
     numeric(xml, "travel", &[(task.robot.travel - first.lift).max(0.0), turned]);
     for (k, leg) in legs.iter().enumerate() {
         let Some(motion) = motions.iter().find(|one| one.tool.name == leg.tool) else { continue };
-        let tool = |position| motion.tool.pose(Pose { position, heading: leg.yaw });
+        let tool = |position, heading| motion.tool.pose(Pose { position, heading });
+        let [lifted, yaw] = leg.yaws;
         let step = leg.to.or(leg.from.map(|from| from + 1)).unwrap_or(0) + 1;
         let flag = |end: Option<usize>| if end.is_some() { 1.0 } else { 0.0 };
-        let heading = tool(Vector::zeros()).heading;
+        let heading = tool(Vector::zeros(), yaw).heading;
         let mut values =
             vec![step as f64, number(&leg.tool), heading, flag(leg.from), flag(leg.to)];
         for corner in &leg.path {
-            let position = tool(*corner).position;
+            let position = tool(*corner, yaw).position;
             values.extend([position.x, position.y]);
         }
         numeric(xml, &format!("leg {}", k + 1), &values);
+        if let Some(start) = leg.path.first().filter(|_| lifted != yaw) {
+            let Pose { position, heading } = tool(*start, lifted);
+            numeric(xml, &format!("turn {}", k + 1), &[position.x, position.y, heading]);
+        }
     }
 }
 

@@ -18,8 +18,9 @@ pub struct TravelLeg {
     pub to: Option<usize>,
     /// Name of the tool.
     pub tool: String,
-    /// Rotation of the end effector, radians.
-    pub yaw: f64,
+    /// Rotations of the end effector while it is lifted, and on the path, radians. It rotates at
+    /// the start of the path.
+    pub yaws: [f64; 2],
     /// Positions of the end effector: start, corners and end, metres.
     pub path: Vec<Vector>,
     /// Name of the body around which it leads, if it is not straight.
@@ -185,28 +186,32 @@ impl Travel<'_> {
         {
             let [from, to] = [before.yaws[1], next.yaws[0]];
             if from == to || self.space(next.tool, to).turns(before.end, from) {
-                legs.push(self.leg((next.tool, to), [last, first])?);
+                legs.push(self.leg((next.tool, [from, to]), [last, first])?);
                 return Ok(());
             }
         }
         if let Some(before) = before {
-            legs.push(self.leg((before.tool, before.yaws[1]), [last, None])?);
+            legs.push(self.leg((before.tool, [before.yaws[1]; 2]), [last, None])?);
         }
         if let Some(next) = next {
-            legs.push(self.leg((next.tool, next.yaws[0]), [None, first])?);
+            legs.push(self.leg((next.tool, [next.yaws[0]; 2]), [None, first])?);
         }
         Ok(())
     }
 
-    fn leg(&self, (tool, yaw): (&Tool, f64), ends: [End; 2]) -> Result<TravelLeg, BlockedLeg> {
-        let space = self.space(tool, yaw);
+    fn leg(
+        &self,
+        (tool, yaws): (&Tool, [f64; 2]),
+        ends: [End; 2],
+    ) -> Result<TravelLeg, BlockedLeg> {
+        let space = self.space(tool, yaws[1]);
         let [from, to] = ends.map(|end| end.map(|(step, _)| step));
         let at = |home: Vector| ends.map(|end| end.map_or(home, |(_, position)| position));
         let leg = |path, around: Option<&str>| TravelLeg {
             from,
             to,
             tool: tool.name.clone(),
-            yaw,
+            yaws,
             path,
             around: around.map(str::to_owned),
         };
@@ -216,7 +221,7 @@ impl Travel<'_> {
         }
         let mut met = None;
         for resolution in Resolution::PATHS {
-            let space = || self.space(tool, yaw);
+            let space = || self.space(tool, yaws[1]);
             let places = ReachablePositions::from_home(space(), || space().of_hand(), resolution);
             match places.path(at(places.home())) {
                 Ok((path, around)) => return Ok(leg(path, around)),

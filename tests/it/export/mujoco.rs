@@ -10,7 +10,7 @@ use pushplan::asset::{PlanFile, ToolLibrary, load_task};
 use pushplan::solve::{Effort, Planner};
 use pushplan::{
     scene::GRAVITY,
-    task::{PushForm, Task},
+    task::{PushForm, Step, Task},
 };
 use pushplan_export::{LEVER_SCRIPT, REPLAY_SCRIPT, mjcf};
 use serde_json::Value as Json;
@@ -135,6 +135,24 @@ fn a_tool_set_down_on_an_object_and_a_jam_fail() {
     let results = replay(&python, &texts);
     assert_eq!(results[0]["failure"], "jams");
     assert_eq!(results[1]["failure"], "set down on an object");
+}
+
+/// In the heading of its second push, the bar would overlap the box before it is lifted.
+#[test]
+fn a_tool_rotates_after_it_is_lifted() {
+    let Some(python) = python() else { return };
+    let task = task("").replace("[0.80, 0.0]", "[0.60, 0.06]");
+    let pushes = [([START - 0.06, 0.0], 0.0, 0.1, 0.05), ([0.60, -0.06], 90.0, 0.06, 0.05)];
+    let mut file = plan(&task, BAR, PushForm::Placed, &pushes);
+    let Some(Step::Push(last)) = file.plan.steps.last_mut() else { panic!("a push") };
+    last.grip_yaw = std::f64::consts::FRAC_PI_2;
+    let text = mjcf(&file).unwrap();
+    let turn = "<numeric name=\"turn 2\"";
+    assert!(text.contains(turn), "{text}");
+    let at_once = text.replace(turn, "<numeric name=\"ignored\"");
+    let results = replay(&python, &[("after", text), ("before", at_once)]);
+    assert_eq!(results[0]["reached"], true, "{:#}", results[0]);
+    assert_eq!(results[1]["failure"], "collides on the way");
 }
 
 /// Closed form: an object stays as long as its centre of mass is above the table.
