@@ -98,7 +98,7 @@ def chosen(package):
 
 
 def texts(package, used):
-    """Licence texts in a crate, each with its licences; none of alternatives that are not used."""
+    """Texts in a crate, each with its licences; those of unused alternatives are left out."""
     folder = Path(package["manifest_path"]).parent
     # Crates of this repository have a text only if it belongs to others, such as three.js.
     ours = package["source"] is None
@@ -111,7 +111,8 @@ def texts(package, used):
         those = {licence for licence in used if licence.upper().startswith(tuple(named))}
         if those or not named:
             text = path.read_text(encoding="utf-8", errors="replace").strip("\n")
-            yield text, those or used
+            notice = path.name.upper().startswith(("COPYRIGHT", "NOTICE"))
+            yield text, set() if notice else those or used
 
 
 def standard(package, licence):
@@ -135,8 +136,9 @@ def licences(crate, target, file):
             refused.append(f"{' '.join(key)}: {package['license']}")
             continue
         found = list(texts(package, those))
-        if not found and package["source"]:
-            found = [(standard(package, licence), {licence}) for licence in sorted(those)]
+        if package["source"]:
+            absent = those.difference(*(names for _, names in found))
+            found += [(standard(package, licence), {licence}) for licence in sorted(absent)]
         for text, names in found:
             group = groups.setdefault(" ".join(text.split()), (text, set(), []))
             group[1].update(names)
@@ -145,18 +147,19 @@ def licences(crate, target, file):
     if refused:
         sys.exit("licences that .ci/inventory.py does not accept:\n" + "\n".join(refused))
     parts = [
-        """Other people's work in pushplan, and the licences that they gave it under. What it takes of
-the standard library of Rust is under MIT or Apache-2.0, too.
+        """Other people's work in pushplan, and the licences that they gave it under.
+What it takes of the standard library of Rust is under MIT or Apache-2.0, too.
 """
     ]
-    for text, names, users in sorted(groups.values(), key=lambda group: (sorted(group[1]), group[2])):
-        head = f"{', '.join(sorted(names))}\nof {', '.join(users)}"
+    ordered = sorted(groups.values(), key=lambda group: (sorted(group[1]), group[2]))
+    for text, names, users in ordered:
+        head = f"{', '.join(sorted(names)) or 'Notice'}\nof {', '.join(users)}"
         parts.append(f"{'=' * 80}\n{head}\n{'-' * 80}\n{text}\n")
     Path(file).write_text("\n".join(parts), encoding="utf-8", newline="\n")
 
 
 def bom(target, file):
-    """Bill of the wheel and the command: crates that the linker sees, three.js, and Rust's library."""
+    """Bill of wheel and command: crates that the linker sees, three.js, and Rust's library."""
     linked = "normal,no-proc-macro"
     edges = tree(linked, target, "-p", "pushplan-python")
     command = ("-p", "pushplan-command", "--features", "pushplan-command/mcap")
