@@ -40,22 +40,22 @@ const COARSE_PLANAR: [(u16, Errors); 3] = [
     (
         120,
         Errors {
-            one: Quantiles { median: 0.05e-3, p95: 0.42e-3 },
-            several: Quantiles { median: 0.12e-3, p95: 1.19e-3 },
+            one: Quantiles { median: 0.07e-3, p95: 0.57e-3 },
+            several: Quantiles { median: 0.16e-3, p95: 1.36e-3 },
         },
     ),
     (
         60,
         Errors {
-            one: Quantiles { median: 0.34e-3, p95: 1.54e-3 },
-            several: Quantiles { median: 0.51e-3, p95: 3.05e-3 },
+            one: Quantiles { median: 0.45e-3, p95: 2.44e-3 },
+            several: Quantiles { median: 0.63e-3, p95: 4.89e-3 },
         },
     ),
     (
         30,
         Errors {
-            one: Quantiles { median: 0.85e-3, p95: 6.67e-3 },
-            several: Quantiles { median: 1.55e-3, p95: 8.48e-3 },
+            one: Quantiles { median: 0.89e-3, p95: 9.51e-3 },
+            several: Quantiles { median: 2.20e-3, p95: 13.36e-3 },
         },
     ),
 ];

@@ -11,13 +11,14 @@ use crate::scene::{Engine, ModelKind, ModelSpec, Rate};
 
 use super::{Effort, LeverSettings, Settings};
 
-/// 2-D engine for pushes into crowds. Among touching objects its error is smaller than the analytic
-/// model's, and it costs a quarter of the engine at its default step.
+/// 2-D engine for pushes into crowds. Among many objects it is cheaper than the network, and it
+/// costs a quarter of the engine at its default step.
 const CROWD_ENGINE: ModelKind = planar(60);
 
-/// Maximum number of objects in motion for which the network's analytic model is clearly cheaper
-/// than [`CROWD_ENGINE`]. It is the intersection of their costs, interpolated in logarithms between
-/// the measured numbers of objects, or the largest of these without an intersection.
+/// Maximum number of objects in motion for which the network replaces [`CROWD_ENGINE`]. While the
+/// network is more accurate among touching objects, it is the largest measured number. Otherwise it
+/// is the intersection of the costs of the network's analytic model and the engine, interpolated in
+/// logarithms.
 const FEW_FOR_NETWORK: u16 = 9;
 
 /// Returns the 2-D engine at this many steps per second, at least one.

@@ -1,40 +1,33 @@
-//! Choice of a measured level for each effort.
+//! Measured levels of the shipped efforts, and cheaper ones with the analytic model alone.
 
 use std::collections::BTreeMap;
 
 use pushplan::internals::scene::ModelKind;
-use pushplan::internals::solve::Effort;
+use pushplan::internals::solve::{Effort, Settings};
 
-use super::front::{Noise, on_front};
+use super::PlanLevel;
+use super::front::Noise;
 use super::measured::PlanRow;
-use super::{PlanLevel, Point};
 
-/// Largest excess of each effort's failures over the best level, in shares of perturbed replays:
-/// three times less from one effort to the next.
-const LOSSES: [(Effort, f64); 3] =
-    [(Effort::Draft, 0.10), (Effort::Standard, 0.032), (Effort::Thorough, 0.01)];
-
-/// Returns `true` if a level is eligible for an effort: its model is the shipped network.
+/// Returns `true` if the model of a level is the shipped network, as of all efforts.
 pub fn is_open(level: &PlanLevel) -> bool {
     level.model.first().kind == ModelKind::NETWORK
 }
 
-/// Returns the level of each effort: the cheapest on the front of the eligible levels whose
-/// failures are within `LOSSES`. If a cheap level is as robust as any, efforts share it.
-pub fn choose_efforts(plans: &[PlanRow], noise: Noise) -> BTreeMap<Effort, PlanLevel> {
-    let choose = |(effort, loss)| {
-        let open = |row: &&PlanRow| row.is_complete() && is_open(&row.level);
-        let rows: Vec<&PlanRow> = plans.iter().filter(open).collect();
-        let points: Vec<Point> = rows.iter().map(|row| row.point()).collect();
-        let front = on_front(&points, noise);
-        let front = || rows.iter().zip(&front).filter(|(_, front)| **front).map(|(row, _)| *row);
-        let best = front().map(|row| row.robustness).fold(0.0, f64::max);
-        // The small term absorbs rounding.
-        let good = front().filter(|row| row.robustness >= best - loss - 1e-9);
-        let cheapest = good.min_by(|a, b| a.seconds.total_cmp(&b.seconds))?;
-        Some((effort, cheapest.level.clone()))
+/// Returns the measured level of each effort as far as pushes go: with its budgets, and with as many
+/// perturbed replays as the effort, or with the most below.
+pub fn shipped_efforts(plans: &[PlanRow]) -> BTreeMap<Effort, PlanLevel> {
+    let level = |effort: Effort| {
+        let shipped = effort.settings();
+        let ships = |row: &&PlanRow| {
+            let Settings { replays, levers, .. } = row.level.settings;
+            let same = row.level.settings == Settings { replays, levers, ..shipped };
+            same && is_open(&row.level) && row.is_complete() && replays <= shipped.replays
+        };
+        let row = plans.iter().filter(ships).max_by_key(|row| row.level.settings.replays)?;
+        Some((effort, row.level.clone()))
     };
-    LOSSES.into_iter().filter_map(choose).collect()
+    Effort::ALL.into_iter().filter_map(level).collect()
 }
 
 /// Returns the cheapest level with the analytic model alone that is cheaper than `row` and as

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::SuiteKind;
 
-use super::choice::choose_efforts;
+use super::choice::shipped_efforts;
 use super::cost::{OBJECTS, YARDSTICK, alone_key, key};
 use super::front::{Noise, Point, on_front};
 use super::levels::{Level, PlanLevel};
@@ -131,7 +131,7 @@ pub struct TradeOffReport {
     pub objects: Vec<ObjectCost>,
     /// Levels of planning.
     pub plans: Vec<PlanRow>,
-    /// Level chosen for each effort.
+    /// Measured level of each effort.
     pub efforts: BTreeMap<Effort, PlanLevel>,
 }
 
@@ -166,7 +166,7 @@ impl TradeOffReport {
                 &fastest,
             ),
             predictors,
-            efforts: choose_efforts(&plans, noise),
+            efforts: shipped_efforts(&plans),
             plans,
         }
     }
