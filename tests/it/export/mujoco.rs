@@ -137,7 +137,7 @@ fn a_tool_set_down_on_an_object_and_a_jam_fail() {
     assert_eq!(results[1]["failure"], "set down on an object");
 }
 
-/// In the heading of its second push, the bar would overlap the box before it is lifted.
+/// The bar would overlap the box in the heading of its second push, before it is lifted.
 #[test]
 fn a_tool_rotates_after_it_is_lifted() {
     let Some(python) = python() else { return };

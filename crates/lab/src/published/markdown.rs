@@ -11,6 +11,9 @@ const UNITS: [&str; 8] = ["mm", "%", "\u{b5}s", "ms", "s", "\u{b0}", "times", "m
 /// Maximum number of published lines of plain text.
 const LINES: usize = 12;
 
+/// Maximum number of characters in a line of a title.
+const COLUMNS: usize = 100;
+
 /// A table with the line above it.
 #[derive(Clone, Debug)]
 struct Found {
@@ -35,10 +38,26 @@ pub fn select(output: &str, picks: &[Pick]) -> Result<String, String> {
     for pick in picks {
         let table = tables.iter().find(|table| table.title.contains(pick.0));
         let table = table.ok_or_else(|| format!("no table `{}`", pick.0))?.picked(pick)?;
-        let title = if picks.len() > 1 { format!("{}:\n\n", table.title) } else { String::new() };
-        parts.push(title + &table.shown());
+        let title = wrapped(&format!("{}:", table.title)) + "\n\n";
+        parts.push(if picks.len() > 1 { title + &table.shown() } else { table.shown() });
     }
     Ok(parts.join("\n"))
+}
+
+/// Breaks a line between words.
+fn wrapped(line: &str) -> String {
+    let (mut text, mut length) = (String::new(), 0);
+    for word in line.split(' ') {
+        let width = word.chars().count();
+        if length > 0 {
+            let breaks = length + 1 + width > COLUMNS;
+            text.push(if breaks { '\n' } else { ' ' });
+            length = if breaks { 0 } else { length + 1 };
+        }
+        text.push_str(word);
+        length += width;
+    }
+    text
 }
 
 /// The last lines of plain text with one of some words.

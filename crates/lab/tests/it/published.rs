@@ -133,6 +133,9 @@ fn parts_of_an_output_are_selected_with_units_in_the_header() {
     let both = select(output, &[("First", &["mean", "mean#1", "note"], &[]), ("Last", &[], &[])]);
     let table = "|mean, mm|mean|note|\n|--:|--:|---|\n|1.5|3 \u{b5}s|a\\|b|\n|2.0|1 ms||\n";
     assert_eq!(both.unwrap(), format!("First:\n\n{table}\nLast:\n\n|x|\n|---|\n|1|\n"));
+    let long = output.replace("First", &"First ".repeat(20));
+    let wrapped = select(&long, &[("First", &["note"], &[]), ("Last", &[], &[])]).unwrap();
+    assert!(wrapped.starts_with(&format!("{}\nFirst", ["First"; 16].join(" "))), "{wrapped}");
     let plain = "one: 3 of 5\ntwo: 4 of 5\n7 of 10 solved\n";
     assert_eq!(select(plain, &[("", &[], &["solved"])]).unwrap(), "```text\n7 of 10 solved\n```\n");
     for (pick, fault) in [

@@ -14,8 +14,8 @@ pub fn is_open(level: &PlanLevel) -> bool {
     level.model.first().kind == ModelKind::NETWORK
 }
 
-/// Returns the measured level of each effort as far as pushes go: with its budgets, and with as many
-/// perturbed replays as the effort, or with the most below.
+/// Returns the measured level of each effort as far as pushes go. It has the budgets of the effort,
+/// and as many perturbed replays or the most below.
 pub fn shipped_efforts(plans: &[PlanRow]) -> BTreeMap<Effort, PlanLevel> {
     let level = |effort: Effort| {
         let shipped = effort.settings();
