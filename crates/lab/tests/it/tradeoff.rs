@@ -231,8 +231,8 @@ fn pushes_are_left_to_the_planar_engine_where_the_network_is_no_better() {
     assert_eq!(cheaper_up_to(&rows([2.0, 3.0, 4.0]), "own", "rival"), 0);
 
     let report: TradeOffReport = serde_json::from_str(MEASURED).unwrap();
-    // The more accurate model is used as far as it was measured. Otherwise the costs of the analytic
-    // model determine the limit, also for the network, which contains it.
+    // The more accurate model is used as far as it was measured. Otherwise the costs of the
+    // analytic model determine the limit, also for the network, which contains it.
     for effort in Effort::ALL {
         let spec = effort.model();
         let (few, others) = (spec.first(), spec.others());
