@@ -148,7 +148,7 @@ def licences(crate, target, file):
         sys.exit("licences that .ci/inventory.py does not accept:\n" + "\n".join(refused))
     parts = [
         """Other people's work in pushplan, and the licences that they gave it under.
-What it takes of the standard library of Rust is under MIT or Apache-2.0, too.
+Its parts of Rust's standard library are also under MIT or Apache-2.0.
 """
     ]
     ordered = sorted(groups.values(), key=lambda group: (sorted(group[1]), group[2]))

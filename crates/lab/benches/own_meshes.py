@@ -12,7 +12,6 @@ Lengths are in metres.
 """
 
 import argparse
-import copy
 import json
 import math
 import subprocess
@@ -25,6 +24,7 @@ from xml.etree.ElementTree import SubElement
 import numpy as np
 import trimesh
 import yaml
+from contacts import transfer
 from shapely.geometry import Polygon
 from trimesh.convex import convex_hull
 from trimesh.creation import extrude_polygon, revolve, torus
@@ -233,19 +233,7 @@ def with_mesh(text, name, mesh, pieces):
         points = trimesh.transform_points(piece, here)
         SubElement(asset, "mesh", name=f"own {own}", vertex=words(points))
         SubElement(body, "geom", name=own, mass="0", type="mesh", mesh=f"own {own}")
-    contact, known = root.find("contact"), set()
-    for pair in list(contact):
-        ends = {pair.get("geom1"), pair.get("geom2")}
-        if not ours & ends:
-            continue
-        contact.remove(pair)
-        for other in ends - ours - known:
-            known.add(other)
-            for own in names:
-                added = copy.deepcopy(pair)
-                added.set("geom1", own)
-                added.set("geom2", other)
-                contact.append(added)
+    transfer(root.find("contact"), ours, names)
     root.find("option/flag").set("multiccd", "enable")
     return ElementTree.tostring(root, encoding="unicode")
 

@@ -141,8 +141,15 @@ def test_wild_numbers_do_no_harm(task: pushplan.Task) -> None:
     assert rolled.errors.shape == (200,)
 
 
-def test_a_broken_rule_is_reported_and_a_plan_is_still_returned(task: pushplan.Task) -> None:
+def test_a_broken_rule_is_reported_and_a_plan_is_still_returned(
+    task: pushplan.Task, tmp_path: Path
+) -> None:
     far = pushplan.Push([2.0, 0.0], 0.0, 0.1)
     plan = pushplan.Plan.of(task, "stick", [far])
     assert plan.violations and plan.violations[0].startswith("push 1: ")
+    allowed = pushplan.solve(task).best
+    assert allowed
+    for one in (plan, allowed):
+        one.save(tmp_path / "plan.json")
+        assert bool(pushplan.Plan.load(tmp_path / "plan.json").violations) == (one is plan)
     assert not pushplan.verify(plan, replays=0).passed

@@ -244,3 +244,15 @@ fn distinguished(value: f64, bounds: [f64; 2]) -> String {
         false => text,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::above;
+
+    #[test]
+    fn a_value_is_shown_above_its_limit() {
+        assert_eq!(above(8.2, 5.0), "8");
+        assert_eq!(above(0.42, 0.1), "0.4");
+        assert_eq!(above(5.2, 5.1), "5.2");
+    }
+}

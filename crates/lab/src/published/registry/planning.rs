@@ -66,7 +66,7 @@ pub const TABLES: &[Published] = &[
             ("", ALL, &["covered"]),
         ]),
     table("pushworld", "benchmarks.md", (50, 196, "puzzles"), PLANS,
-        "for set in level1 'level1 --as-played' levels2to4; do python \
+        "for set in level1 'level1 --as-played' levels2to4 'levels2to4 --seconds 40'; do python \
          crates/lab/benches/puzzles.py $set --solve pushplan --mujoco python; done", &[
             ("", ALL, &["solved"]),
         ]),
