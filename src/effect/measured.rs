@@ -24,14 +24,14 @@ struct Errors {
 /// Errors of the analytic model from `pushplan-lab evaluate --on single touching`: 2000 pushes of
 /// seed 7 each.
 const PRIOR: Errors = Errors {
-    one: Quantiles { median: 0.16e-3, p95: 2.32e-3 },
-    several: Quantiles { median: 0.24e-3, p95: 2.74e-3 },
+    one: Quantiles { median: 0.16e-3, p95: 2.28e-3 },
+    several: Quantiles { median: 0.25e-3, p95: 2.71e-3 },
 };
 
 /// Errors of the shipped network on the same pushes, frame by frame.
 const NETWORK: Errors = Errors {
-    one: Quantiles { median: 0.15e-3, p95: 2.35e-3 },
-    several: Quantiles { median: 0.25e-3, p95: 2.76e-3 },
+    one: Quantiles { median: 0.17e-3, p95: 1.75e-3 },
+    several: Quantiles { median: 0.25e-3, p95: 2.62e-3 },
 };
 
 /// Errors of the 2-D engine with fewer steps a second, from `pushplan-lab tradeoff --pushes 500
