@@ -14,7 +14,7 @@ are in metres, masses in kilograms. Only Python is needed. The exit code is 0 if
 import math
 import sys
 
-from drawn import Draw, chosen, counts, num, solve, solver
+from drawn import Draw, chosen, counts, num, solve, solver, table
 
 SMALL = ["[finger]", "[finger, paddle]", "[finger, t-head]"]
 SOME = [*SMALL, "[finger, stick]", "all"]
@@ -279,9 +279,9 @@ def main():
     parser = solver(__doc__)
     parser.add_argument("--solvable", action="store_true", help="write the solvable twins")
     arguments = parser.parse_args()
-    wrong, tried = 0, 0
+    wrong, found = 0, {}
     for name, kind in chosen(KINDS, arguments):
-        codes = []
+        codes = found[name] = []
         for k in range(arguments.count):
             draw = Draw(f"{arguments.seed} {name} {k}")
             draw.name = f"{name}-{'open' if arguments.solvable else 'closed'}-{k:02}"
@@ -294,11 +294,10 @@ def main():
                 if (code == 0) != arguments.solvable:
                     wrong += 1
                     print(f"  {path.name}: {text.splitlines()[0]}", flush=True)
-        tried += len(codes)
         if arguments.solve:
             print(f"{name}: {counts(codes)}", flush=True)
     if arguments.solve:
-        print(f"{wrong} of {tried} wrong")
+        print(f"{wrong} of {sum(map(len, found.values()))} wrong\n\n{table(found)}")
     return 1 if wrong else 0
 
 

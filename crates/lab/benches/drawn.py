@@ -165,3 +165,14 @@ def counts(codes):
     """Returns how often each verdict occurs in a list of exit codes."""
     each = sorted((code, codes.count(code)) for code in set(codes))
     return ", ".join(f"{count} {VERDICTS.get(code, f'exit {code}')}" for code, count in each)
+
+
+def table(found, unit="tasks", names=VERDICTS):
+    """Returns a Markdown table of how often each verdict occurs, by kind and in all."""
+    codes = [code for mine in found.values() for code in mine]
+    shown = [code for code in [*names, *sorted(set(codes) - set(names))] if code in codes]
+    heads = ["kind", unit, *(str(names.get(code, f"exit {code}")) for code in shown)]
+    rows = [("all", codes), *found.items()]
+    cells = [[kind, len(mine), *map(mine.count, shown)] for kind, mine in rows]
+    rule = ["---"] + ["--:"] * (len(heads) - 1)
+    return "\n".join("|" + "|".join(map(str, row)) + "|" for row in [heads, rule, *cells])

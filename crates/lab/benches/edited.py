@@ -20,6 +20,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from drawn import table
 from edits import LEVERS, PUSHES
 from edits_of_joints import JOINTS
 
@@ -72,10 +73,9 @@ def main():
             if answer in ("pass", "error"):
                 wrong += 1
                 print(f"  {name} of {path.name}: {answer}", flush=True)
-    for name, answers in found.items():
-        counts = [f"{answers.count(one)} {one}" for one in sorted(set(answers))]
-        print(f"{name}: {', '.join(counts)}")
-    print(f"{wrong} of {total} pass")
+    answers = ["pass", "refused", "fail", "fragile", "error"]
+    shown = table(found, "edited plans", {answer: answer for answer in answers})
+    print(f"{wrong} of {total} pass\n\n{shown}")
     return 1 if wrong else 0
 
 

@@ -13,7 +13,7 @@ masses in kilograms. Only Python is needed. The exit code is 0 if no task is sol
 import math
 import sys
 
-from drawn import Draw, chosen, counts, num, solve, solver
+from drawn import Draw, chosen, counts, num, solve, solver, table
 
 
 def gap_by_little(d, turn=0.0):
@@ -291,9 +291,9 @@ def main():
     )
     arguments = parser.parse_args()
     verb = ["run", "--world", "1"] if arguments.run else ["solve"]
-    wrong = 0
+    wrong, found = 0, {}
     for name, kind in chosen(KINDS, arguments):
-        codes = []
+        codes = found[name] = []
         for k in range(arguments.count):
             draw = Draw(f"{arguments.seed} {name} {k}")
             kind(draw)
@@ -311,7 +311,7 @@ def main():
         if arguments.solve:
             print(f"{name}: {counts(codes)}", flush=True)
     if arguments.solve:
-        print(f"{wrong} called solved")
+        print(f"{wrong} called solved\n\n{table(found)}")
     return 1 if wrong else 0
 
 

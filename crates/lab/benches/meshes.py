@@ -259,16 +259,27 @@ def measure(name, path, out):
     if plan is None or row["status"] != "solved":
         raise Left(f"not solved: {row['status']}", row)
     text = plan.to_mjcf()
+    plan.save(out / f"{name}.plan.json")
     (out / "as-exported" / f"{name}.xml").write_text(text)
     (out / "own" / f"{name}.xml").write_text(own_solids(text, task.objects[0], model, data, shift))
     return row
 
 
+def exported_script(out):
+    """Returns the path of the replay script, which the command exports next to plans."""
+    plans = sorted(out.glob("*.plan.json"))[:1]
+    command = [sys.executable, "-m", "pushplan", "export", *plans, "--out", out / "script"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(done.stderr)
+    return out / "script" / "replay.py"
+
+
 def replayed(folder, replay):
     """Returns the results of replays of a folder's scenes, by name."""
     done = subprocess.run([sys.executable, replay, folder], capture_output=True, text=True)
-    if done.returncode not in (0, 1):
-        sys.exit(done.stderr)
+    if done.returncode not in (0, 1) or not done.stdout:
+        sys.exit(done.stderr or f"{replay} printed nothing")
     return {row["plan"]: row for row in map(json.loads, done.stdout.splitlines())}
 
 
@@ -280,8 +291,7 @@ def main():
     parser.add_argument(
         "--replay",
         type=Path,
-        default=Path("crates/page/mujoco/replay.py"),
-        help="path of the replay script",
+        help="path of another replay script than the exported one",
     )
     args = parser.parse_args()
     for folder in ("as-exported", "own"):
@@ -296,8 +306,9 @@ def main():
         except (Left, pushplan.FileError, ValueError) as left:
             row |= {"left": str(left.args[0])} | (left.args[1] if len(left.args) > 1 else {})
         print(name, row.get("left", row.get("status")), file=sys.stderr, flush=True)
+    replay = args.replay or exported_script(args.out)
     for folder in ("as-exported", "own"):
-        for name, found in replayed(args.out / folder, args.replay).items():
+        for name, found in replayed(args.out / folder, replay).items():
             rows[name][folder] = {
                 key: found[key] for key in ("reached", "failure", "error", "difference")
             }

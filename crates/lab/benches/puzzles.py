@@ -270,7 +270,10 @@ def main():
             records.append(record)
             print(json.dumps(record), flush=True)
     solved = sum(record["status"] == "solved" for record in records)
-    line = f"solved {solved} of {len(records)}"
+    form = options.kind and f"{options.kind}, {options.objects} objects"
+    form = form or ", ".join(folder.name for folder in options.puzzles)
+    line = f"{form}{', as played' if options.as_played else ''}, {options.seconds:g} s: "
+    line += f"{solved} of {len(records)} solved"
     if options.mujoco and plans:
         works = replayed(options.mujoco, options.solve, plans, options.out / "mujoco")
         line += f", {len(works)} work in MuJoCo"

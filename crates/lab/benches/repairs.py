@@ -274,8 +274,9 @@ def main():
         seconds = rows[-1]["seconds"]
         cause = found["cause"] or ""
         print(len(rows), kind.__name__, name, result, calls, f"{seconds} s", cause, flush=True)
-    print(f"\n{'kind':16} broken solved restored cannot wrong calls seconds")
-    for kind in [*kinds, None]:
+    print("\n|break|broken|solved|restored|cannot|wrong|calls, mean|time, mean|")
+    print("|---" + 7 * "|--:" + "|")
+    for kind in [None, *kinds]:
         mine = [row for row in rows if kind is None or row["kind"] == kind.__name__]
         if not mine:
             continue
@@ -285,8 +286,8 @@ def main():
         restored = sum(row["restored"] for row in mine)
         label = kind.__name__ if kind else "all"
         print(
-            f"{label:16} {len(mine):6} {results['solved']:6} {restored:8} {results['cannot']:6} "
-            f"{results['wrong']:5} {calls:5.1f} {seconds:7.1f}"
+            f"|{label}|{len(mine)}|{results['solved']}|{restored}|{results['cannot']}|"
+            f"{results['wrong']}|{calls:.1f}|{seconds:.1f} s|"
         )
     if options.out:
         with open(options.out, "w", encoding="utf-8") as file:

@@ -21,8 +21,8 @@ pub const TABLES: &[Published] = &[
     table("crowds", "crowds.md", (20, 100, "trajectories a set"), PUSHES,
         "pushplan-lab evaluate --on sparse dense --count 100 --summary --out \
          runs/crowds --markdown && cp runs/crowds/*.svg crates/lab/results/", &[
-            ("", &["set", "motion", "of motion", "median", "joints none", "prior", "own spread"],
-            ALL),
+            ("", &["set", "motion", "of motion", "median", "prior", "joints none",
+            "joints guessed", "friction 70 %", "friction 130 %", "own spread"], ALL),
         ]),
     table("real-pushes", "real-pushes.md", (1, 50, "recorded pushes"), PUSHES,
         "pushplan predict tests/it/assets/real-pushes", &[
