@@ -342,6 +342,13 @@ fn help_of_solve_begins_with_its_options_and_completions_are_named() {
 }
 
 #[test]
+fn the_command_without_python_names_the_package_with_the_server_for_agents() {
+    let output = run(&["mcp", "--folder", "tables"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("pip install 'pushplan[mcp]'"), "{}", stderr(&output));
+}
+
+#[test]
 fn check_explains_a_missing_plan_only_on_request() {
     let folder = TempDir::new().expect("a folder");
     let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();

@@ -11,7 +11,7 @@ use super::{
     error::CliError,
     exit_code, export, fit,
     groups::{Groups, grouped},
-    infer, interrupt, new, predict,
+    infer, interrupt, mcp, new, predict,
     session::{GlobalArgs, Session, shown},
     solve, verify,
 };
@@ -41,6 +41,7 @@ enum Command {
     Fit(fit::FitArgs),
     Infer(infer::InferArgs),
     Bench(bench::BenchArgs),
+    Mcp(mcp::McpArgs),
     #[command(hide = true)]
     Completions(completions::CompletionsArgs),
 }
@@ -57,6 +58,7 @@ const GROUPS: Groups = &[
     ("Files", &["check", "import", "export"]),
     ("Learn from recordings", &["fit", "infer"]),
     ("Measure", &["bench"]),
+    ("Serve", &["mcp"]),
 ];
 
 /// Runs the command with the given arguments, the program's name first, and returns its exit code.
@@ -114,6 +116,7 @@ fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
         Command::Fit(args) => fit::run(args, session),
         Command::Infer(args) => infer::run(args, session),
         Command::Bench(args) => bench::run(args, session),
+        Command::Mcp(args) => mcp::run(args),
         Command::Completions(args) => completions::run(args, session),
     }
 }

@@ -21,6 +21,7 @@ pub mod import;
 pub mod infer;
 pub mod interrupt;
 pub mod lever_argument;
+pub mod mcp;
 pub mod model;
 pub mod new;
 pub mod noise;
