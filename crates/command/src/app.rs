@@ -41,15 +41,17 @@ enum Command {
     Fit(fit::FitArgs),
     Infer(infer::InferArgs),
     Bench(bench::BenchArgs),
-    Mcp(mcp::McpArgs),
     #[command(hide = true)]
     Completions(completions::CompletionsArgs),
+    #[command(hide = true)]
+    Mcp(mcp::McpArgs),
 }
 
-/// Returns the end of `--help`, which also names the script for shells.
+/// Returns the end of `--help`, which also names the hidden commands.
 fn after_help() -> String {
     let shells = "`pushplan completions SHELL` prints a completion script for a shell.";
-    format!("{shells}\n\n{}", exit_code::HELP)
+    let agents = "`pushplan mcp` serves agents; it needs the Python package.";
+    format!("{shells}\n{agents}\n\n{}", exit_code::HELP)
 }
 
 /// Groups of commands, in the order of `--help`.
@@ -58,7 +60,6 @@ const GROUPS: Groups = &[
     ("Files", &["check", "import", "export"]),
     ("Learn from recordings", &["fit", "infer"]),
     ("Measure", &["bench"]),
-    ("Serve", &["mcp"]),
 ];
 
 /// Runs the command with the given arguments, the program's name first, and returns its exit code.

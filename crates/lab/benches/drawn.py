@@ -168,9 +168,11 @@ def counts(codes):
 
 
 def table(found, unit="tasks", names=VERDICTS):
-    """Returns a Markdown table of how often each verdict occurs, by kind and in all."""
+    """Returns a Markdown table of how often each verdict occurs, by kind and in all. The first
+    verdict is the wrong one, and has a column even if it never occurs."""
     codes = [code for mine in found.values() for code in mine]
-    shown = [code for code in [*names, *sorted(set(codes) - set(names))] if code in codes]
+    first, *others = [*names, *sorted(set(codes) - set(names))]
+    shown = [first, *(code for code in others if code in codes)]
     heads = ["kind", unit, *(str(names.get(code, f"exit {code}")) for code in shown)]
     rows = [("all", codes), *found.items()]
     cells = [[kind, len(mine), *map(mine.count, shown)] for kind, mine in rows]

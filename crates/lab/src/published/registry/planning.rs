@@ -31,7 +31,7 @@ pub const TABLES: &[Published] = &[
     table("around", "impossible.md", (10, 120, "tasks"), PLANS,
         "python3 crates/lab/benches/around.py --out runs/around --count 10 --seed 11 \
          --solve pushplan || [ $? = 1 ]", &[]),
-    table("edited", "impossible.md", (6, 320, "edited plans"), PLANS,
+    table("edited", "impossible.md", (3, 300, "edited plans"), PLANS,
         "python3 crates/lab/benches/edited.py runs/mujoco/plans --out runs/edited \
          --verify pushplan || [ $? = 1 ]", &[]),
     table("tool-choice", "tool-choice.md", (10, 118, "tasks"), PLANS,
@@ -77,7 +77,8 @@ pub const TABLES: &[Published] = &[
     table("kinder", "benchmarks.md", (20, 50, "episodes of an environment"), PLANS,
         "for name in DynPushT2D-t1 DynPushPullHook2D-o0 DynPushPullHook2D-o1 \
          DynPushPullHook2D-o5 PushPullHook2D StickButton2D-b1 StickButton2D-b2 StickButton2D-b3 \
-         StickButton2D-b5 StickButton2D-b10; do python examples/kinder_2d.py $name --seeds 1000 1050; done", &[
+         StickButton2D-b5 StickButton2D-b10; do python examples/kinder_2d.py $name --seeds 1000 \
+         1050; done", &[
             ("", ALL, &["reached, median"]),
         ]),
     table("tool-tasks", "tool-tasks.md", (30, 260, "tasks"), PLANS,

@@ -31,7 +31,7 @@ pub const TABLES: &[Published] = &[
             ("share of the mean true motion", &["set", "motion", "mean", "95 % interval", "median",
             "heading", "prior"], ALL),
         ]),
-    table("bullet", "bullet.md", (15, 233, "pushes"), PLANS,
+    table("bullet", "bullet.md", (15, 239, "pushes"), PLANS,
         "crates/lab/benches/mujoco runs/mujoco 300 7 && python3 \
          crates/lab/benches/bullet.py runs/mujoco --out runs/bullet && pushplan predict \
          runs/bullet --markdown", &[
