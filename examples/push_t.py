@@ -5,7 +5,7 @@ is success. The planner learns nothing: it reads the true state and knows the sh
 policies use human demonstrations. Before every push it predicts some thousand single pushes and
 pairs of pushes. It then executes the push with the smallest expected number of steps to success.
 
-    pip install pushplan gym-pusht
+    pip install pushplan gym-pusht 'pymunk<7'
     python examples/push_t.py --seeds 100000 100050
 """
 

@@ -45,7 +45,7 @@ pub const TABLES: &[Published] = &[
             ("Probabilities", &["set", "seen", "nll", "calibration, %", "all ordered pairs, %",
             "anchor, median", "axis, median"], &["| regulator |"]),
         ]),
-    table("joint-errors", "joint-errors.md", (20, 40, "trajectories a row"), BELIEFS,
+    table("joint-errors", "joint-errors.md", (8, 40, "trajectories a row"), BELIEFS,
         "pushplan-lab joints --seen fine --count 40", &[
             ("Remaining motion", &["set", "after", "true joints", "none", "filter", "regulator",
             "regulator: median", "filter: gap closed, %", "regulator: gap closed, %"], NOISY),
@@ -66,7 +66,7 @@ pub const TABLES: &[Published] = &[
         "pushplan-lab masses --count 100", &[
             ("", MASSES, ALL),
         ]),
-    table("masses-crowd", "masses.md", (4, 24, "trajectories a row"), BELIEFS,
+    table("masses-crowd", "masses.md", (14, 24, "trajectories a row"), BELIEFS,
         "pushplan-lab masses --touching --crowds 9 --count 24", &[
             ("", MASSES, NOISY),
         ]),
@@ -90,7 +90,7 @@ pub const TABLES: &[Published] = &[
         "pushplan-lab run --count 30 --engine 3d", &[
             ("", RUN_COLUMNS, &["| all |"]),
         ]),
-    table("probe-rules", "probes.md", (6, 12, "worlds a task"), RUNS,
+    table("probe-rules", "probes.md", (10, 12, "worlds a task"), RUNS,
         "crates/lab/benches/probe-rules runs/rules", &[]),
     table("probes", "probes.md", (15, 100, "scenes"), BELIEFS,
         "pushplan-lab probes --count 100", &[

@@ -6,7 +6,7 @@ use super::inputs::{LEVERS, PLANS};
 /// Tables from other engines and programs.
 #[rustfmt::skip] // a table in a few lines each
 pub const TABLES: &[Published] = &[
-    table("mujoco", "mujoco.md", (20, 300, "tasks"), PLANS,
+    table("mujoco", "mujoco.md", (16, 300, "tasks"), PLANS,
         "crates/lab/benches/mujoco runs/mujoco 300 7", &[]),
     table("mujoco-levers", "mujoco.md", (12, 48, "lever-ups a family"), LEVERS,
         "crates/lab/benches/mujoco-levers runs/mujoco-levers", &[]),

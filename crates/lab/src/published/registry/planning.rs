@@ -25,7 +25,7 @@ pub const TABLES: &[Published] = &[
         ]),
     table("everyday", "everyday.md", (30, 300, "tasks"), PLANS,
         "KIND=everyday crates/lab/benches/mujoco runs/everyday 300 7", &[]),
-    table("impossible", "impossible.md", (15, 130, "tasks"), PLANS,
+    table("impossible", "impossible.md", (24, 130, "tasks"), PLANS,
         "python3 crates/lab/benches/impossible.py --out runs/impossible --count 5 \
          --solve pushplan || [ $? = 1 ]", &[]),
     table("around", "impossible.md", (10, 120, "tasks"), PLANS,
