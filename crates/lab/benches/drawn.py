@@ -169,7 +169,7 @@ def counts(codes):
 
 def table(found, unit="tasks", names=VERDICTS):
     """Returns a Markdown table of how often each verdict occurs, by kind and in all. The first
-    verdict is the wrong one, and has a column even if it never occurs."""
+    verdict has a column even if it never occurs."""
     codes = [code for mine in found.values() for code in mine]
     first, *others = [*names, *sorted(set(codes) - set(names))]
     shown = [first, *(code for code in others if code in codes)]
