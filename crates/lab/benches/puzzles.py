@@ -17,6 +17,7 @@ import json
 import random
 import re
 import resource
+import shutil
 import subprocess
 import sys
 from collections import deque
@@ -220,7 +221,8 @@ def solve(program, task, out, options):
 
 
 def replayed(python, program, plans, out):
-    """Returns the names of the plans that work in MuJoCo."""
+    """Returns the names of the plans that work in MuJoCo; scenes of earlier plans are removed."""
+    shutil.rmtree(out, ignore_errors=True)
     command = [program, "export", *plans, "--out", out]
     subprocess.run(command, check=True, capture_output=True)
     done = subprocess.run([python, out / "replay.py", out], capture_output=True, text=True)
