@@ -59,6 +59,7 @@ def main():
 
         found[name] = played(tasks, command, out, budget, progress)
         (out / "board.md").write_text(page(found[name], name, budget))
+    print("Programs:\n")
     print(
         "| program | solved | plans that fail | twins called solved | twins called impossible "
         "| processor time, median | sum | rollouts, median |"
@@ -66,7 +67,7 @@ def main():
     print("| --- |" + " --: |" * 7)
     for name, records in found.items():
         print(row(name, records))
-    print("\n| kind | tasks | " + " | ".join(found) + " |")
+    print("\nKinds:\n\n| kind | tasks | " + " | ".join(found) + " |")
     print("| --- | --: |" + " --: |" * len(found))
     for kind in sorted({one.kind for one in tasks}):
         own = [[r for r in records if r.possible and r.kind == kind] for records in found.values()]

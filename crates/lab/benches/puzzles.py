@@ -278,7 +278,9 @@ def main():
     line += f"{solved} of {len(records)} solved"
     if options.mujoco and plans:
         works = replayed(options.mujoco, options.solve, plans, options.out / "mujoco")
-        line += f", {len(works)} work in MuJoCo"
+        version = "import mujoco; print(mujoco.__version__)"
+        version = subprocess.run([options.mujoco, "-c", version], capture_output=True, text=True)
+        line += f", {len(works)} work in MuJoCo {version.stdout.strip()}"
     print(line)
 
 

@@ -82,7 +82,10 @@ pub const TABLES: &[Published] = &[
             ("", ALL, &["reached, median"]),
         ]),
     table("tool-tasks", "tool-tasks.md", (30, 260, "tasks"), PLANS,
-        "python crates/lab/benches/board.py --out runs/board", &[]),
+        "python crates/lab/benches/board.py --out runs/board", &[
+            ("Programs", ALL, ALL),
+            ("Kinds", ALL, ALL),
+        ]),
     table("agent-calls", "agents.md", (10, 1000, "calls"), PLANS,
         "python crates/python/tests/mcp_fuzz.py --count 1000 --seed 20261130", &[]),
     table("agent-repairs", "agents.md", (20, 200, "broken tasks"), PLANS,
