@@ -2,23 +2,21 @@
 """Writes tasks that no shipped tool solves, and designs tools for them.
 
     python3 crates/lab/benches/design.py --out designed --solve target/release/pushplan
-    python3 crates/lab/benches/design.py --out designed --solve target/release/pushplan --random
-    pushplan export designed/plans/*.plan.json --out designed/mjcf
-    python3 designed/mjcf/replay.py designed/mjcf > designed/mujoco.jsonl
 
 Draws tasks of eight kinds, and keeps up to `--count` of each kind for which `solve` finds no
 working plan with the shipped tools. It is unknown whether any tool solves them. `design` then
-evaluates `--candidates` tools. With `--random`, all tools are random draws of the same forms
-without variation: the baseline is the best of as many random tools. Existing tasks are not drawn
-again. Unsolved plans have other names (`.failed.plan.json` and so on); omit them in the export.
-Lengths are in metres, masses in kilograms. Files are JSON, which is also YAML. Only Python is
-needed.
+evaluates `--candidates` tools, and a tenth of them. The baseline is the best of as many random
+draws of the same forms, without variation. Prints the number of solved tasks by kind. With
+`--mujoco` it also replays the plans of the first way. Existing tasks are not drawn again. Lengths
+are in metres, masses in kilograms. Files are JSON, which is also YAML.
 """
 
 import argparse
 import json
 import random
+import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 NO_PLAN, FAILED, PARTIAL = 4, 5, 8
@@ -196,39 +194,14 @@ def unsolved(arguments, kind):
     return kept
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--out", type=Path, required=True, help="folder of the tasks")
-    parser.add_argument("--solve", required=True, help="path of the program")
-    parser.add_argument("--count", type=int, default=5, help="tasks of each kind; default 5")
-    parser.add_argument("--seed", type=int, default=1, help="seed of all random draws; default 1")
-    parser.add_argument(
-        "--kind", action="append", choices=KINDS, help="only this kind, repeatable; default all"
-    )
-    parser.add_argument(
-        "--candidates", type=int, default=1000, help="number of candidate tools; default 1000"
-    )
-    parser.add_argument(
-        "--parts", type=int, default=3, help="maximum number of parts of a tool; default 3"
-    )
-    parser.add_argument("--random", action="store_true", help="draw all candidates at random")
-    arguments = parser.parse_args()
-    arguments.out.mkdir(parents=True, exist_ok=True)
-    name = "random" if arguments.random else "plans"
+def designed(arguments, name, candidates, at_random):
+    """Designs a tool for every task, and returns a record of each."""
     records = []
     for kind in arguments.kind or KINDS:
         for path in unsolved(arguments, kind):
-            command = [
-                arguments.solve,
-                "design",
-                path,
-                "--quiet",
-                "--json",
-                "--out",
-                arguments.out / name,
-            ]
-            command += ["--candidates", str(arguments.candidates), "--parts", str(arguments.parts)]
-            command += ["--random"] if arguments.random else []
+            command = [arguments.solve, "design", path, "--quiet", "--json"]
+            command += ["--out", arguments.out / name, "--parts", str(arguments.parts)]
+            command += ["--candidates", str(candidates), *(["--random"] if at_random else [])]
             done = subprocess.run(command, capture_output=True, text=True)
             found = json.loads(done.stdout)
             plans, tool = found["solution"]["plans"], found["tool"]
@@ -245,15 +218,65 @@ def main():
                     "spent": found["spent"],
                 }
             )
-            print(json.dumps(records[-1]), flush=True)
-        own = [record for record in records if record["kind"] == kind]
-        print(f"{kind}: {sum(record['solved'] for record in own)} of {len(own)} solved", flush=True)
+            print(json.dumps(records[-1]), file=sys.stderr, flush=True)
     (arguments.out / f"{name}.json").write_text(json.dumps(records, indent=1))
-    rollouts = sum(record["spent"]["rollouts"] for record in records)
-    print(
-        f"{sum(record['solved'] for record in records)} of {len(records)} solved, {rollouts} "
-        "rollouts"
+    return records
+
+
+def replayed(arguments):
+    """Returns the number of plans of designed tools that work in MuJoCo, and its version."""
+    plans = [
+        path
+        for path in sorted((arguments.out / "plans").glob("*.plan.json"))
+        if "." not in path.name.removesuffix(".plan.json")
+    ]
+    out = arguments.out / "mjcf"
+    shutil.rmtree(out, ignore_errors=True)
+    subprocess.run([arguments.solve, "export", *plans, "--out", out], check=True)
+    command = [arguments.mujoco, out / "replay.py", out]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+    lines = [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]
+    return len({line["plan"] for line in lines if line.get("reached")}), lines[0]["mujoco"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--out", type=Path, required=True, help="folder of the tasks")
+    parser.add_argument("--solve", required=True, help="path of the program")
+    parser.add_argument("--count", type=int, default=5, help="tasks of each kind; default 5")
+    parser.add_argument("--seed", type=int, default=1, help="seed of all random draws; default 1")
+    parser.add_argument(
+        "--kind", action="append", choices=KINDS, help="only this kind, repeatable; default all"
     )
+    parser.add_argument(
+        "--candidates", type=int, default=1000, help="number of candidate tools; default 1000"
+    )
+    parser.add_argument(
+        "--parts", type=int, default=3, help="maximum number of parts of a tool; default 3"
+    )
+    parser.add_argument("--mujoco", metavar="PYTHON", help="a Python with MuJoCo, to replay plans")
+    arguments = parser.parse_args()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    count = arguments.candidates
+    few = max(count // 10, 1)
+    ways = {
+        f"best of {count}": designed(arguments, "plans", count, False),
+        f"best of {few}": designed(arguments, "few", few, False),
+        f"best of {count} random tools": designed(arguments, "random", count, True),
+    }
+    print("| kind | tasks | " + " | ".join(ways) + " |\n| --- |" + " --: |" * (1 + len(ways)))
+    for kind in [*(arguments.kind or KINDS), None]:
+        own = [[r for r in of if kind in (r["kind"], None)] for of in ways.values()]
+        solved = [str(sum(record["solved"] for record in of)) for of in own]
+        print(f"| {kind or 'all'} | {len(own[0])} | " + " | ".join(solved) + " |")
+    rollouts = [sum(record["spent"]["rollouts"] for record in of) for of in ways.values()]
+    print("| rollouts | | " + " | ".join(f"{number:,}" for number in rollouts) + " |")
+    parts = [[r["parts"] for r in of if r["solved"]] for of in ways.values()]
+    means = [f"{sum(of) / len(of):.1f}" if of else "" for of in parts]
+    print("| parts of a tool, mean | | " + " | ".join(means) + " |")
+    if arguments.mujoco:
+        works, version = replayed(arguments)
+        print(f"| works in MuJoCo {version} | | {works} | | |")
 
 
 if __name__ == "__main__":

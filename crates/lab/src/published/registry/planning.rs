@@ -56,10 +56,8 @@ pub const TABLES: &[Published] = &[
             "replays per task", "rollouts"], ALL),
         ]),
     table("designed-tools", "designed-tools.md", (20, 40, "tasks"), PLANS,
-        "for way in '' '--candidates 100' --random; do python3 \
-         crates/lab/benches/design.py --out runs/designed --solve pushplan $way; done", &[
-            ("", ALL, &["solved"]),
-        ]),
+        "python crates/lab/benches/design.py --out runs/designed --solve pushplan --mujoco python",
+            &[]),
     table("push-t", "benchmarks.md", (15, 50, "games"), PLANS,
         "python examples/push_t.py --seeds 100000 100050", &[
             ("", ALL, &["covered, "]),
