@@ -92,7 +92,7 @@ pub const TABLES: &[Published] = &[
         "python crates/lab/benches/arms.py --effort draft --out runs/arms", &[
             ("", ALL, &["pinocchio_agrees"]),
         ]),
-    table("robot-arms-mujoco", "robot-arms.md", (15, 96, "plans"), PLANS,
+    table("robot-arms-mujoco", "robot-arms.md", (15, 98, "tasks"), PLANS,
         "python crates/lab/benches/arms.py --arms panda --mujoco --out runs/arms-mujoco", &[
             ("", ALL, &["reached_in_mujoco"]),
         ]),
