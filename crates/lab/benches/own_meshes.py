@@ -17,6 +17,7 @@ import math
 import subprocess
 import sys
 import zlib
+from collections import Counter
 from pathlib import Path
 from xml.etree import ElementTree
 from xml.etree.ElementTree import SubElement
@@ -255,14 +256,15 @@ def main():
         print(name, "no plan" if scene is None else "solved", file=sys.stderr, flush=True)
         if scene is not None:
             (out / "own" / f"{name}.xml").write_text(with_mesh(scene, name, mesh, pieces))
+    print("| solids | meshes | planned | reach their goals | failures |")
+    print("| --- | --: | --: | --: | --- |")
     for folder in ("as-exported", "own"):
         done = run(sys.executable, out / "as-exported" / "replay.py", out / folder)
         rows = [json.loads(line) for line in done.stdout.splitlines()]
         reached = sum(row["reached"] for row in rows)
-        print(f"{folder}: {len(rows)} of {options.count} planned, {reached} reach their goals")
-        for row in rows:
-            if not row["reached"]:
-                print(f"  {row['plan']}: {row['failure']}")
+        failures = Counter(row["failure"] for row in rows if not row["reached"])
+        failures = ", ".join(f"{count} {name}" for name, count in failures.most_common())
+        print(f"| {folder} | {options.count} | {len(rows)} | {reached} | {failures} |")
 
 
 if __name__ == "__main__":

@@ -135,6 +135,7 @@ def main():
     parser.add_argument("--arms", default=",".join(ARMS))
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
+    rows = []
     for name in options.arms.split(","):
         package, licence, urdf, flange, mount, base = ARMS[name]
         place, root = folder(package)
@@ -158,7 +159,8 @@ def main():
         row |= {"read": bool(found), "feasible": 0, "planned": 0, "within": 0}
         row |= {"overlaps": 0, "reached": 0}
         if not found:
-            print(json.dumps(row | {"code": code}), flush=True)
+            print(json.dumps(row | {"code": code}), file=sys.stderr, flush=True)
+            rows.append(row)
             continue
         arm = json.loads(found[0].read_text())["task"]["robot"]["arm"]
         row["joints"] = len(arm["joints"])
@@ -177,7 +179,7 @@ def main():
                 continue
             row["feasible"] += 1
             if attempt(task, label, robot, out) != 0:
-                print(json.dumps({"missed": label}), flush=True)
+                print(json.dumps({"missed": label}), file=sys.stderr, flush=True)
                 continue
             row["planned"] += 1
             plans.append(out / f"{label}.plan.json")
@@ -189,11 +191,22 @@ def main():
             faults = [fault for fault in faults if " in " not in fault]
             row["within"] += not faults and max(worst) <= 1.001
             if faults or max(worst) > 1.001:
-                print(json.dumps({"task": label, "faults": faults, "rates": worst}), flush=True)
+                line = {"task": label, "faults": faults, "rates": worst}
+                print(json.dumps(line), file=sys.stderr, flush=True)
         if plans:
             lines = played(options.program, plans, options.out / f"{out.name}-scenes")
             row["reached"] = sum(line["reached"] for line in lines)
-        print(json.dumps(row), flush=True)
+        print(json.dumps(row), file=sys.stderr, flush=True)
+        rows.append(row)
+    mujoco = f"reach in MuJoCo {version('mujoco')}"
+    print(f"| arm | package, licence | joints | feasible | planned | within limits | {mujoco} |")
+    print("| --- | --- |" + " --: |" * 5)
+    keys = ("feasible", "planned", "within", "reached")
+    for row in rows:
+        cells = [str(row.get("joints", "")), *(str(row[key]) for key in keys)]
+        print(f"| {row['arm']} | {row['package']}, {row['licence']} | " + " | ".join(cells) + " |")
+    sums = " | ".join(str(sum(row[key] for row in rows)) for key in keys)
+    print(f"| all {len(rows)} | | | {sums} |")
 
 
 if __name__ == "__main__":

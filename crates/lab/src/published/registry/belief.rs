@@ -62,6 +62,8 @@ pub const TABLES: &[Published] = &[
         "pushplan-lab joints --types-only --on sparse --seen exact --objects 6 12 --count 100", &[
             ("Types at the end", TYPES, ALL),
         ]),
+    table("joints-mujoco", "joint-conditions.md", (10, 100, "scenes"), BELIEFS,
+        "python crates/lab/benches/mujoco-joints runs/mujoco-joints --count 100 --jobs 2", &[]),
     table("masses", "masses.md", (8, 100, "trajectories a row"), BELIEFS,
         "pushplan-lab masses --count 100", &[
             ("", MASSES, ALL),
@@ -78,11 +80,11 @@ pub const TABLES: &[Published] = &[
         "pushplan-lab masses --frictions --seen exact --seen fine --count 100", &[
             ("", MASSES, NOISY),
         ]),
-    table("hidden-scenes", "hidden-scenes.md", (8, 200, "tasks"), RUNS,
+    table("hidden-scenes", "hidden-scenes.md", (3, 200, "tasks"), RUNS,
         "pushplan-lab run --count 200", &[
             ("", RUN_COLUMNS, ALL),
         ]),
-    table("hidden-clusters", "hidden-scenes.md", (6, 40, "tasks"), RUNS,
+    table("hidden-clusters", "hidden-scenes.md", (5, 40, "tasks"), RUNS,
         "pushplan-lab run --kind cluster --count 40", &[
             ("", RUN_COLUMNS, ALL),
         ]),

@@ -14,4 +14,6 @@ pub const TABLES: &[Published] = &[
         "python3 crates/lab/benches/meshes.py assets --out runs/meshes", &[
             ("", ALL, &["reach their goals"]),
         ]),
+    table("imported-meshes", "imported-files.md", (3, 50, "meshes"), PLANS,
+        "python crates/lab/benches/own_meshes.py --program pushplan --out runs/own-meshes", &[]),
 ];

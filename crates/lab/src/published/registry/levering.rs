@@ -19,18 +19,18 @@ const SOME_FRAMES: &[&str] = &["| 1 |", "| 2 |", "| 3 |", "| 5 |", "| 8 |"];
 /// Tables of lever-ups.
 #[rustfmt::skip] // a table in a few lines each
 pub const TABLES: &[Published] = &[
-    table("lever-truth", "lever-truth.md", (8, 256, "lever-ups a family"), &[Input::LeverUps],
+    table("lever-truth", "lever-truth.md", (2, 256, "lever-ups a family"), &[Input::LeverUps],
         "pushplan-lab convergence", &[
             ("levers: ", STEPS, TWO_STEPS),
             ("levers-varied: ", STEPS, TWO_STEPS),
             ("hdd: ", STEPS, TWO_STEPS),
         ]),
-    table("lever-models", "lever-models.md", (10, 2000, "lever-ups a family"), LEVERS,
+    table("lever-models", "lever-models.md", (2, 2000, "lever-ups a family"), LEVERS,
         "pushplan-lab levers", &[
             ("levers: ", LEVER_COLUMNS, &["no motion", "1-NN", "prior", "3d"]),
             ("levers-varied: ", LEVER_COLUMNS, &["support points", "prior", "3d"]),
         ]),
-    table("boards", "boards.md", (8, 993, "lever-ups"), LEVERS,
+    table("boards", "boards.md", (1, 993, "lever-ups"), LEVERS,
         "pushplan-lab hdd", &[
             ("lever-ups on", &["model", "lift, mean", "p95", "rotation, mean", "rest, mean",
             "in/out correct", "time"], ALL),
