@@ -35,11 +35,11 @@ pub const TABLES: &[Published] = &[
         "pip install -q . mujoco && python3 crates/lab/benches/sampler.py", &[]),
     table("first-plan", "solve-cost.md", (3, 51, "tasks"), PLANS,
         "python3 crates/lab/benches/so_far.py", &[
-            ("", ALL, &["in the median"]),
+            ("", ALL, &["tasks: median"]),
         ]),
     table("python-solve", "python-cost.md", (2, 6, "tasks"), PLANS,
         "pip install -q . && python3 crates/lab/benches/python.py solve", &[
-            ("", &["task", "command", "in a running Python", "Python started for it"], ALL),
+            ("", &["task", "command", "in a running Python", "with the start of Python"], ALL),
         ]),
     table("python-rollouts", "python-cost.md", (10, 1000, "pushes a task"), PUSHES,
         "pip install -q . mujoco && python3 crates/lab/benches/python.py rollout --rounds 1", &[
