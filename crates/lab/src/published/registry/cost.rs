@@ -43,7 +43,8 @@ pub const TABLES: &[Published] = &[
         ]),
     table("python-rollouts", "python-cost.md", (10, 1000, "pushes a task"), PUSHES,
         "pip install -q . mujoco && python3 crates/lab/benches/python.py rollout --rounds 1", &[
-            ("", &["task", "by", "a push", "cheaper than MuJoCo, usual", "apart from it, median"],
+            ("", &["task", "model", "per push", "factor to usual MuJoCo",
+            "distance to exact MuJoCo, median"],
             ALL),
         ]),
     table("extremes", "extremes.md", (20, 22, "pushes a cell"), PUSHES,
