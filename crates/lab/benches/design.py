@@ -232,7 +232,8 @@ def replayed(arguments):
     ]
     out = arguments.out / "mjcf"
     shutil.rmtree(out, ignore_errors=True)
-    subprocess.run([arguments.solve, "export", *plans, "--out", out], check=True)
+    command = [arguments.solve, "export", *plans, "--out", out]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     command = [arguments.mujoco, out / "replay.py", out]
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
     lines = [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]

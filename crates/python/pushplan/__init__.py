@@ -11,6 +11,8 @@ that end in ``_deg`` are degrees. The table is the plane z = 0, and x points for
 robot's base at the origin. Results do not depend on the number of threads.
 """
 
+from typing import TYPE_CHECKING, Any
+
 from ._native import (
     Belief,
     Design,
@@ -57,8 +59,24 @@ from .errors import (
     TaskError,
     UnknownToolError,
 )
-from .loaded import scene_from
 from .progress import Progress
+
+if TYPE_CHECKING:
+    from .loaded import scene_from
+else:
+
+    def __getattr__(name: str) -> Any:
+        """Imports `scene_from` on first use: NumPy takes four times as long as the rest."""
+        if name == "scene_from":
+            from .loaded import scene_from
+
+            return scene_from
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+    def __dir__() -> list[str]:
+        """Returns the names of the module, with `scene_from`."""
+        return sorted({*globals(), "scene_from"})
+
 
 __all__ = [
     "ActionError",

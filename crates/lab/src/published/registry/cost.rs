@@ -23,8 +23,8 @@ pub const TABLES: &[Published] = &[
             ("", &["objects out of reach", "network, 64 at a time", "planar, 1 at a time",
             "difference of final poses#1"], ALL),
         ]),
-    table("tradeoff", "tradeoff.md", (60, 40, "tasks a level"), PLANS,
-        "pushplan-lab tradeoff --pushes 500 --rounds 3 --tasks 40 --tolerance 0.25 \
+    table("tradeoff", "tradeoff.md", (80, 120, "tasks a level"), PLANS,
+        "pushplan-lab tradeoff --pushes 500 --rounds 3 --tasks 120 --tolerance 0.25 \
          --markdown --out runs/tradeoff && cp runs/tradeoff/tradeoff*.svg \
          runs/tradeoff/tradeoff.json crates/lab/results/", &[
             ("Predictors", &["predictor", "mean", "median", "touching, mean", "mean against 3-D",
