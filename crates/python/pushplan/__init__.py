@@ -63,7 +63,9 @@ from .progress import Progress
 
 if TYPE_CHECKING:
     from .loaded import scene_from
-else:
+
+# Type checkers know the names, and would take this function to accept any other one too.
+if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> Any:
         """Imports `scene_from` on first use: NumPy takes four times as long as the rest."""
