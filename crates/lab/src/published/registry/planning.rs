@@ -96,7 +96,7 @@ pub const TABLES: &[Published] = &[
         "python crates/lab/benches/arms.py --arms panda --mujoco --out runs/arms-mujoco", &[
             ("", ALL, &["reached_in_mujoco"]),
         ]),
-    table("public-arms", "robot-arms.md", (7, 100, "feasible tasks"), PLANS,
+    table("public-arms", "robot-arms.md", (7, 107, "feasible tasks"), PLANS,
         "python crates/lab/benches/public_arms.py --program pushplan --out runs/public-arms", &[]),
     table("camera-loop", "robot-arms.md", (5, 20, "scenes"), RUNS,
         "python examples/robot/run.py --scenes 20 --seed 20261127", &[
