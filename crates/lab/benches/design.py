@@ -223,13 +223,10 @@ def designed(arguments, name, candidates, at_random):
     return records
 
 
-def replayed(arguments):
+def replayed(arguments, records):
     """Returns the number of plans of designed tools that work in MuJoCo, and its version."""
-    plans = [
-        path
-        for path in sorted((arguments.out / "plans").glob("*.plan.json"))
-        if "." not in path.name.removesuffix(".plan.json")
-    ]
+    tools = [record["tool"] for record in records if record["solved"]]
+    plans = [arguments.out / f"plans/{tool}.plan.json" for tool in tools]
     out = arguments.out / "mjcf"
     shutil.rmtree(out, ignore_errors=True)
     command = [arguments.solve, "export", *plans, "--out", out]
@@ -276,7 +273,7 @@ def main():
     means = [f"{sum(of) / len(of):.1f}" if of else "" for of in parts]
     print("| parts of a tool, mean | | " + " | ".join(means) + " |")
     if arguments.mujoco:
-        works, version = replayed(arguments)
+        works, version = replayed(arguments, ways[f"best of {count}"])
         print(f"| works in MuJoCo {version} | | {works} | | |")
 
 
