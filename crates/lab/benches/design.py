@@ -14,10 +14,11 @@ are in metres, masses in kilograms. Files are JSON, which is also YAML.
 import argparse
 import json
 import random
-import shutil
 import subprocess
 import sys
 from pathlib import Path
+
+from puzzles import replayed, version_of_mujoco
 
 NO_PLAN, FAILED, PARTIAL = 4, 5, 8
 
@@ -223,20 +224,6 @@ def designed(arguments, name, candidates, at_random):
     return records
 
 
-def replayed(arguments, records):
-    """Returns the number of plans of designed tools that work in MuJoCo, and its version."""
-    tools = [record["tool"] for record in records if record["solved"]]
-    plans = [arguments.out / f"plans/{tool}.plan.json" for tool in tools]
-    out = arguments.out / "mjcf"
-    shutil.rmtree(out, ignore_errors=True)
-    command = [arguments.solve, "export", *plans, "--out", out]
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    command = [arguments.mujoco, out / "replay.py", out]
-    done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
-    lines = [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]
-    return len({line["plan"] for line in lines if line.get("reached")}), lines[0]["mujoco"]
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--out", type=Path, required=True, help="folder of the tasks")
@@ -273,8 +260,12 @@ def main():
     means = [f"{sum(of) / len(of):.1f}" if of else "" for of in parts]
     print("| parts of a tool, mean | | " + " | ".join(means) + " |")
     if arguments.mujoco:
-        works, version = replayed(arguments, ways[f"best of {count}"])
-        print(f"| works in MuJoCo {version} | | {works} | | |")
+        solved = [record for record in ways[f"best of {count}"] if record["solved"]]
+        plans = [arguments.out / f"plans/{record['tool']}.plan.json" for record in solved]
+        out = arguments.out / "mjcf"
+        works = replayed(arguments.mujoco, arguments.solve, plans, out) if plans else []
+        version = version_of_mujoco(arguments.mujoco)
+        print(f"| works in MuJoCo {version} | | {len(works)} | | |")
 
 
 if __name__ == "__main__":

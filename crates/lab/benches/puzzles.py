@@ -230,6 +230,12 @@ def replayed(python, program, plans, out):
     return {line["plan"] for line in lines if line.get("reached")}
 
 
+def version_of_mujoco(python):
+    """Returns the version of MuJoCo of a Python."""
+    command = [python, "-c", "import mujoco; print(mujoco.__version__)"]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     add = parser.add_argument
@@ -278,9 +284,7 @@ def main():
     line += f"{solved} of {len(records)} solved"
     if options.mujoco and plans:
         works = replayed(options.mujoco, options.solve, plans, options.out / "mujoco")
-        version = "import mujoco; print(mujoco.__version__)"
-        version = subprocess.run([options.mujoco, "-c", version], capture_output=True, text=True)
-        line += f", {len(works)} work in MuJoCo {version.stdout.strip()}"
+        line += f", {len(works)} work in MuJoCo {version_of_mujoco(options.mujoco)}"
     print(line)
 
 

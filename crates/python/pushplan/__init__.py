@@ -64,7 +64,7 @@ from .progress import Progress
 if TYPE_CHECKING:
     from .loaded import scene_from
 
-# Type checkers know the names, and would take this function to accept any other one too.
+# Type checkers would accept every name of a module with this function.
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> Any:
