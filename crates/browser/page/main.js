@@ -15,6 +15,7 @@ let whole = null; // the request for a plan with its report
 let drafting = null; // the request for a draft with the usual budgets
 let paged = null; // the answer whose report is shown
 let version = 0;
+let cancelled = -1; // the version of the task whose plan was cancelled last
 
 async function main() {
   const module = await load();
@@ -57,8 +58,8 @@ async function main() {
     if (!first) drafting = own;
     own.done = ({ answer, broken }) => {
       if (!first) drafting = null;
-      // Only the answer for the present task is shown.
-      if (own.version !== version) return;
+      // Only the answer for the present task is shown, and none after it was cancelled.
+      if (own.version !== version || version === cancelled) return;
       const found = !broken && !answer.fault;
       // A first look that finds nothing proves nothing.
       if (found && (!first || answer.summary.status === 'solved')) {
@@ -147,6 +148,9 @@ async function main() {
   byId('plan').addEventListener('click', plan);
   byId('cancel').addEventListener('click', () => {
     planner.cancel(whole);
+    if (drafting) planner.cancel(drafting);
+    drafting = null;
+    cancelled = version;
     ended();
     headline('cancelled');
   });
