@@ -68,7 +68,7 @@ if TYPE_CHECKING:
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> Any:
-        """Imports `scene_from` on first use: NumPy takes four times as long as the rest."""
+        """Imports `scene_from` on first use: NumPy takes three times as long as the rest."""
         if name == "scene_from":
             from .loaded import scene_from
 
